@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "odosplat/compute/program.hpp"
+
+namespace odosplat::compute {
+
+/// Exclusive prefix sum of 32-bit counts. Integer sums: the same result on every device.
+class Scan {
+ public:
+  explicit Scan(const Context& context);
+
+  /// out[i] = counts[0] + ... + counts[i-1] for i in 0..n (n + 1 values, the last is the total); out is resized.
+  /// `counts` has at least n elements. Sums beyond 2^32 - 1 wrap. Queued.
+  void exclusive(const Buffer<std::uint32_t>& counts, std::size_t n, Buffer<std::uint32_t>& out);
+
+ private:
+  Context context_;
+  Program program_;
+  Kernel chunk_sums_, scan_sums_, write_;
+  Buffer<std::uint32_t> sums_;
+};
+
+}  // namespace odosplat::compute

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <Eigen/Core>
+
+namespace odosplat {
+
+/// Pinhole camera without distortion: u = fx x/z + cx, v = fy y/z + cy [px]. x right, y down, z forward.
+/// Pixel (0,0) is the CENTRE of the top-left pixel, so the image covers [-0.5, width - 0.5).
+struct Camera {
+  int width = 0;
+  int height = 0;
+  double fx = 0.0;  // [px], > 0
+  double fy = 0.0;  // [px], > 0
+  double cx = 0.0;  // [px]
+  double cy = 0.0;  // [px]
+
+  /// Throws InputError naming the field: sizes in 1..32768, focal lengths positive, all finite.
+  void check() const;
+
+  /// p_camera [m] with z > 0 to pixel.
+  Eigen::Vector2d project(const Eigen::Vector3d& p_camera) const {
+    return {fx * p_camera.x() / p_camera.z() + cx, fy * p_camera.y() / p_camera.z() + cy};
+  }
+  /// Pixel to the point of its ray at depth z = 1.
+  Eigen::Vector3d ray(double u, double v) const { return {(u - cx) / fx, (v - cy) / fy, 1.0}; }
+  Eigen::Matrix3d matrix() const;
+
+  /// Camera of pyramid level l >= 0, each level half the size (odd last rows and columns are dropped):
+  /// u -> (u + 0.5) / 2 - 0.5.
+  Camera level(int l) const;
+  /// Camera of the same view at another size; both axes are scaled on their own.
+  Camera resized(int new_width, int new_height) const;
+
+  bool operator==(const Camera&) const = default;
+};
+
+}  // namespace odosplat
