@@ -20,8 +20,7 @@
 /* Added to both variances of a projected Gaussian [px^2]: no Gaussian falls between pixel centres. */
 #define DILATION 0.3f
 
-/* Work-items of a chunk in scan and sort on a CPU: few, long chunks. */
-#define SCAN_CHUNK 4096
+/* Radix sort: bits a pass, and the size of a digit's table. */
 #define RADIX_BITS 11
 #define RADIX_SIZE 2048
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "odosplat/compute/device.hpp"
@@ -49,6 +50,7 @@ class Context {
   void reset_kernel_times();
 
   ContextImpl& impl() const { return *impl_; }
+  const std::shared_ptr<ContextImpl>& shared_impl() const { return impl_; }
 
  private:
   explicit Context(std::shared_ptr<ContextImpl> impl) : impl_(std::move(impl)) {}

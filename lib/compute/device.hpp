@@ -2,12 +2,19 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace odosplat::compute {
 
 enum class DeviceType { cpu, gpu, other };
+
+/// The user asked for a device that is not there or is refused. One line; programs exit with 2.
+class NoSuchDevice : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// One OpenCL device as `odosplat devices` shows it. `index` is its place in the list, over all platforms, in the order
 /// that the OpenCL loader reports; it is what --device INDEX means.
@@ -24,12 +31,16 @@ struct DeviceInfo {
   std::string refusal;  // why it is not used; empty: usable
 };
 
+/// Threads that PoCL's CPU device runs on. Works before the first look at any device only, since PoCL starts its
+/// threads then; other runtimes ignore it.
+void set_cpu_threads(int n);
+
 /// All devices of all platforms; empty where there is no OpenCL at all.
 std::vector<DeviceInfo> list_devices();
 
 /// Picks from `devices`: selector is an index, a part of a name (device or platform, case ignored), or empty, which
 /// means the environment variable ODOSPLAT_DEVICE, else the first usable GPU, else the first usable CPU.
-/// Throws InputError when nothing fits, or when what fits is refused (with the reason).
+/// Throws NoSuchDevice when nothing fits, or when what fits is refused (with the reason).
 const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const std::string& selector);
 
 }  // namespace odosplat::compute

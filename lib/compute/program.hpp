@@ -58,8 +58,7 @@ class Kernel {
   template <typename T>
   struct is_vector : std::false_type {};
   template <typename T, std::size_t N>
-  struct is_vector<std::array<T, N>>
-      : std::bool_constant<sizeof(T) == 4 && (N == 2 || N == 4 || N == 8 || N == 16)> {};
+  struct is_vector<std::array<T, N>> : std::bool_constant<sizeof(T) == 4 && (N == 2 || N == 4 || N == 8 || N == 16)> {};
 
   void set_bytes(unsigned index, const void* value, std::size_t size);
   void launch(const Range& range, unsigned arguments);

@@ -22,8 +22,13 @@ class RadixSort {
  private:
   Context context_;
   Program program_;
-  Kernel histogram_, offsets_, scatter_;
-  Buffer<std::uint32_t> counts_, other_order_;
+  Kernel histogram_;
+  Kernel chunk_offsets_;
+  Kernel digit_offsets_;
+  Kernel scatter_;
+  Buffer<std::uint32_t> counts_;
+  Buffer<std::uint32_t> totals_;
+  Buffer<std::uint32_t> other_;
 };
 
 }  // namespace odosplat::compute

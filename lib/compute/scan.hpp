@@ -21,7 +21,9 @@ class Scan {
  private:
   Context context_;
   Program program_;
-  Kernel chunk_sums_, scan_sums_, write_;
+  Kernel chunk_sums_;
+  Kernel scan_sums_;
+  Kernel write_;
   Buffer<std::uint32_t> sums_;
 };
 

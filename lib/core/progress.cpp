@@ -50,8 +50,8 @@ void Progress::print(long done, const std::string& detail) {
   if (terminal_) {
     constexpr int width = 24;
     const int filled = std::clamp(static_cast<int>(share * width), 0, width);
-    const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
-                            std::string(static_cast<std::size_t>(width - filled), '.');
+    const std::string bar =
+        std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.');
     std::fprintf(stderr, "\r\033[K%s [%s] %ld/%ld  left %s  %s", what_.c_str(), bar.c_str(), done, total_, left.c_str(),
                  detail.c_str());
     line_open_ = true;

@@ -13,7 +13,8 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& omega) {
   const Eigen::Matrix3d W = skew(omega);
   if (angle < 1e-5) return Eigen::Matrix3d::Identity() + 0.5 * W + W * W / 6.0;
   const double a2 = angle * angle;
-  return Eigen::Matrix3d::Identity() + (1.0 - std::cos(angle)) / a2 * W + (angle - std::sin(angle)) / (a2 * angle) * W * W;
+  return Eigen::Matrix3d::Identity() + (1.0 - std::cos(angle)) / a2 * W +
+         (angle - std::sin(angle)) / (a2 * angle) * W * W;
 }
 
 }  // namespace
