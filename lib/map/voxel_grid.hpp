@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace odosplat {
+
+/// Sums of points a voxel: the memory of every filter that thins a cloud. Cells are numbered in the order in which
+/// their first point came, so that results depend on the input alone. Not thread safe.
+class VoxelGrid {
+ public:
+  struct Cell {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();   // [m] sum
+    Eigen::Vector3f color = Eigen::Vector3f::Zero();   // sum
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // sum; a builder keeps viewing rays here
+    int count = 0;
+  };
+
+  /// voxel: edge of a cell [m], > 0 and finite, else InputError.
+  explicit VoxelGrid(double voxel);
+
+  /// The cell of point, made if new; nullptr for a point that is not finite or 1e9 voxels or more from the origin. The
+  /// pointer holds until the next call.
+  Cell* at(const Eigen::Vector3d& point);
+
+  const std::vector<Cell>& cells() const { return cells_; }
+
+ private:
+  struct Key {
+    std::int32_t x, y, z;
+    bool operator==(const Key&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Key& k) const;
+  };
+
+  double voxel_;
+  std::unordered_map<Key, std::uint32_t, Hash> index_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace odosplat
