@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <cstddef>
+
+#include "odosplat/compute/program.hpp"
+
+namespace odosplat {
+
+struct AdamOptions {
+  float beta1 = 0.9F;      // decay of the mean of gradients, 0..1
+  float beta2 = 0.999F;    // decay of the mean of squared gradients, 0..1
+  float epsilon = 1e-15F;  // added to the root of the second moment, > 0 (Kerbl et al. 2023)
+
+  /// Throws InputError naming the field.
+  void check() const;
+};
+
+/// Adam (Kingma and Ba 2015, algorithm 1) for one attribute: rows of `stride` floats, N of them, on the device. The
+/// first `head` elements of a row move at the rate itself, the others at rate * rest_ratio (SH: colour and details).
+/// Holds both moments and the number of steps made. Deterministic; queued. Not thread safe.
+class Adam {
+ public:
+  /// stride >= 1, 0 <= head <= stride, rest_ratio >= 0.
+  Adam(const compute::Context& context, const AdamOptions& options, int stride, int head, float rest_ratio);
+
+  /// parameters -= step; gradients of the same size. Moments start at zero whenever the size changes.
+  void step(compute::Buffer<float>& parameters, const compute::Buffer<float>& gradients, double rate);
+  long steps() const { return steps_; }
+
+ private:
+  AdamOptions options_;
+  compute::Context context_;
+  compute::Kernel kernel_;
+  int stride_;
+  compute::Buffer<float> pattern_, first_, second_;
+  long steps_ = 0;
+};
+
+}  // namespace odosplat
