@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/io/camera_file.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/atomic_file.hpp"
+
+namespace odosplat {
+namespace {
+
+class Reader {
+ public:
+  Reader(std::string name, const std::string& text) : name_(std::move(name)) {
+    try {
+      root_ = YAML::Load(text);
+    } catch (const YAML::Exception& e) {
+      fail("line " + std::to_string(e.mark.line + 1), e.msg);
+    }
+    if (!root_.IsMap()) fail("content", "is not a list of `key: value` lines");
+  }
+
+  bool has(const char* key) const { return static_cast<bool>(root_[key]); }
+
+  double number(const char* key) const {
+    if (!has(key)) fail(key, "is missing");
+    return number(key, root_[key]);
+  }
+
+  int integer(const char* key) const {
+    const double value = number(key);
+    if (value != std::floor(value) || std::abs(value) > 1e6) fail(key, "is not a whole number in range");
+    return static_cast<int>(value);
+  }
+
+  std::vector<double> numbers(const char* key) const {
+    const YAML::Node list = root_[key];
+    if (!list.IsSequence()) fail(key, "is not a list");
+    std::vector<double> values;
+    for (const YAML::Node& item : list) values.push_back(number(key, item));
+    return values;
+  }
+
+  std::string text(const char* key) const {
+    if (!root_[key].IsScalar()) fail(key, "is not a text");
+    return root_[key].Scalar();
+  }
+
+  void refuse_unknown(const std::set<std::string>& known) const {
+    for (const auto& entry : root_) {
+      if (!entry.first.IsScalar()) fail("content", "has a key that is not a word");
+      if (known.count(entry.first.Scalar()) == 0) fail(entry.first.Scalar(), "is not a known key");
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& key, const std::string& fault) const {
+    throw InputError(name_, key, fault);
+  }
+
+ private:
+  double number(const char* key, const YAML::Node& node) const {
+    double value = 0.0;
+    if (!node.IsScalar() || !YAML::convert<double>::decode(node, value)) fail(key, "is not a number");
+    if (!std::isfinite(value)) fail(key, "is not finite");
+    return value;
+  }
+
+  std::string name_;
+  YAML::Node root_;
+};
+
+}  // namespace
+
+CameraFile parse_camera_file(const std::string& name, const std::string& text) {
+  const Reader reader(name, text);
+  CameraFile file;
+  Camera& c = file.camera;
+  c.width = reader.integer("width");
+  c.height = reader.integer("height");
+  c.fx = reader.number("fx");
+  c.fy = reader.number("fy");
+  c.cx = reader.number("cx");
+  c.cy = reader.number("cy");
+  if (c.fy < 0.0) {
+    file.fy_sign = -1;
+    c.fy = -c.fy;
+  }
+  try {
+    c.check();
+  } catch (const InputError& e) {
+    throw InputError(name, e.what());
+  }
+  if (reader.has("depth_scale")) {
+    file.depth_scale = reader.number("depth_scale");
+    file.has_depth_scale = true;
+    if (file.depth_scale <= 0.0) reader.fail("depth_scale", "must be positive");
+  }
+  if (reader.has("distortion")) {
+    file.distortion = reader.numbers("distortion");
+    const std::size_t n = file.distortion.size();
+    if (n != 0 && n != 4 && n != 5) reader.fail("distortion", "must hold 4 or 5 numbers, holds " + std::to_string(n));
+  }
+  if (reader.has("fps")) {
+    file.fps = reader.number("fps");
+    if (file.fps <= 0.0) reader.fail("fps", "must be positive");
+  }
+  if (reader.has("gamma")) {
+    file.gamma = reader.number("gamma");
+    if (file.gamma <= 0.0) reader.fail("gamma", "must be positive");
+  }
+  if (reader.has("vignette")) file.vignette = reader.text("vignette");
+  reader.refuse_unknown(
+      {"width", "height", "fx", "fy", "cx", "cy", "depth_scale", "distortion", "fps", "gamma", "vignette"});
+  return file;
+}
+
+CameraFile read_camera_file(const std::string& path) { return parse_camera_file(path, read_file(path)); }
+
+void write_camera_file(const std::string& path, const CameraFile& file) {
+  std::string text;
+  auto line = [&text](const char* key, double value) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof(buffer), "%s: %.17g\n", key, value);
+    text += buffer;
+  };
+  line("width", file.camera.width);
+  line("height", file.camera.height);
+  line("fx", file.camera.fx);
+  line("fy", file.fy_sign * file.camera.fy);
+  line("cx", file.camera.cx);
+  line("cy", file.camera.cy);
+  line("depth_scale", file.depth_scale);
+  if (!file.distortion.empty()) {
+    text += "distortion: [";
+    for (std::size_t i = 0; i < file.distortion.size(); ++i) {
+      char buffer[64];
+      std::snprintf(buffer, sizeof(buffer), "%s%.17g", i == 0 ? "" : ", ", file.distortion[i]);
+      text += buffer;
+    }
+    text += "]\n";
+  }
+  if (file.fps > 0.0) line("fps", file.fps);
+  if (file.gamma > 0.0) line("gamma", file.gamma);
+  if (!file.vignette.empty()) text += "vignette: " + file.vignette + "\n";
+  write_file_atomically(path, text);
+}
+
+}  // namespace odosplat

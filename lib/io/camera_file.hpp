@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "odosplat/core/camera.hpp"
+
+namespace odosplat {
+
+/// What a camera.yaml says. Keys: width height fx fy cx cy (all needed), depth_scale, distortion [k1 k2 p1 p2 k3], fps,
+/// gamma, vignette.
+struct CameraFile {
+  Camera camera;                   // fy > 0 always; pixel centres at integers
+  int fy_sign = 1;                 // -1: the file has a negative fy, so poses and cloud are to be reflected
+  double depth_scale = 1000.0;     // units of a 16-bit depth image a metre
+  bool has_depth_scale = false;    // false: the file does not say, the layout's own default counts
+  std::vector<double> distortion;  // k1 k2 p1 p2 k3 (OpenCV's order; 4 values: k3 = 0); empty: none
+  double fps = 0.0;                // [1/s], 0: not said
+  double gamma = 0.0;              // exponent of the response, 0: not said
+  std::string vignette;            // image file, relative to the camera file; empty: none
+};
+
+/// Throws InputError(file, key, fault): a key missing or unknown, not a number, not finite, sizes or focal lengths out
+/// of range, fx <= 0, fy = 0, depth_scale <= 0, another number of distortion coefficients than 4 or 5.
+CameraFile read_camera_file(const std::string& path);
+/// The same from text; `name` stands for the file in errors.
+CameraFile parse_camera_file(const std::string& name, const std::string& text);
+
+/// Writes width .. cy, depth_scale and what else is set; numbers with 17 digits, so that reading gives the same bits.
+void write_camera_file(const std::string& path, const CameraFile& file);
+
+}  // namespace odosplat

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/io/trajectory_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+#include <vector>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/atomic_file.hpp"
+
+namespace odosplat {
+namespace {
+
+struct Line {
+  std::size_t number = 0;  // from 1
+  std::vector<double> values;
+  std::string first;  // first value as written
+};
+
+class Lines {
+ public:
+  Lines(std::string name, const std::string& text) : name_(std::move(name)) {
+    std::string_view rest = text;
+    for (std::size_t number = 1; !rest.empty(); ++number) {
+      const std::size_t end = std::min(rest.find('\n'), rest.size());
+      add(number, rest.substr(0, end));
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+  }
+
+  const std::vector<Line>& all() const { return lines_; }
+
+  [[noreturn]] void fail(const Line& line, const std::string& fault) const {
+    throw InputError(name_, "line " + std::to_string(line.number), fault);
+  }
+
+ private:
+  void add(std::size_t number, std::string_view text) {
+    constexpr std::string_view blanks = " \t\r,";
+    Line line;
+    line.number = number;
+    while (true) {
+      const std::size_t start = text.find_first_not_of(blanks);
+      if (start == std::string_view::npos || (line.values.empty() && text[start] == '#')) break;
+      text.remove_prefix(start);
+      std::string_view word = text.substr(0, std::min(text.find_first_of(blanks), text.size()));
+      text.remove_prefix(word.size());
+      if (line.values.empty()) line.first = word;
+      if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
+      double value = 0.0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (error != std::errc() || end != word.data() + word.size()) fail(line, shown(word) + " is not a number");
+      if (!std::isfinite(value)) fail(line, shown(word) + " is not finite");
+      line.values.push_back(value);
+      if (line.values.size() > 16) fail(line, "has more than 16 values");
+    }
+    if (!line.values.empty()) lines_.push_back(std::move(line));
+  }
+
+  static std::string shown(std::string_view word) { return "`" + std::string(word.substr(0, 24)) + "`"; }
+
+  std::string name_;
+  std::vector<Line> lines_;
+};
+
+SE3 pose_from_rows(const Lines& lines, const Line& line, const std::vector<double>& v) {
+  Eigen::Matrix3d R;
+  R << v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10];
+  // Files carry 5 to 9 digits.
+  if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-2 || R.determinant() < 0.0) {
+    lines.fail(line, "the matrix is no rotation");
+  }
+  return {R, Eigen::Vector3d(v[3], v[7], v[11])};
+}
+
+StampedPose tum_pose(const Lines& lines, const Line& line) {
+  const std::vector<double>& v = line.values;
+  const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);
+  if (q.norm() < 1e-6) lines.fail(line, "the quaternion has length zero");
+  StampedPose pose;
+  pose.time = v[0];
+  pose.time_text = line.first;
+  pose.T_world_camera = SE3(q, Eigen::Vector3d(v[1], v[2], v[3]));
+  return pose;
+}
+
+Trajectory redwood_log(const Lines& lines) {
+  const std::vector<Line>& all = lines.all();
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < all.size(); i += 5) {
+    if (all[i].values.size() != 3) lines.fail(all[i], "expected `i j k` before a matrix");
+    if (i + 4 >= all.size()) lines.fail(all.back(), "the last matrix is not complete");
+    std::vector<double> rows;
+    for (std::size_t r = 1; r <= 4; ++r) {
+      if (all[i + r].values.size() != 4) lines.fail(all[i + r], "expected 4 values of a matrix row");
+      rows.insert(rows.end(), all[i + r].values.begin(), all[i + r].values.end());
+    }
+    StampedPose pose;
+    pose.time = all[i].values[0];
+    pose.time_text = all[i].first;
+    pose.T_world_camera = pose_from_rows(lines, all[i + 1], rows);
+    trajectory.push_back(pose);
+  }
+  return trajectory;
+}
+
+Trajectory pose_a_line(const Lines& lines) {
+  Trajectory trajectory;
+  const std::size_t width = lines.all().front().values.size();
+  for (const Line& line : lines.all()) {
+    if (line.values.size() != width) {
+      lines.fail(line, "has " + std::to_string(line.values.size()) + " values, the lines before have " +
+                           std::to_string(width));
+    }
+    if (width == 8) {
+      trajectory.push_back(tum_pose(lines, line));
+    } else if (width == 12 || width == 16) {
+      StampedPose pose;
+      pose.time = static_cast<double>(trajectory.size());
+      pose.time_text = std::to_string(trajectory.size());
+      pose.T_world_camera = pose_from_rows(lines, line, line.values);
+      trajectory.push_back(pose);
+    } else {
+      lines.fail(line, "has " + std::to_string(width) + " values; a pose has 8 (TUM), 12 (KITTI) or 16");
+    }
+  }
+  return trajectory;
+}
+
+void require_ascending(const std::string& name, const Trajectory& trajectory) {
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    if (!(trajectory[i].time > trajectory[i - 1].time)) {
+      throw InputError(name, "pose " + std::to_string(i + 1), "time " + trajectory[i].stamp() + " does not grow");
+    }
+  }
+}
+
+void set_times(const std::string& times_path, Trajectory& trajectory) {
+  const Lines lines(times_path, read_file(times_path));
+  if (lines.all().size() != trajectory.size()) {
+    throw InputError(times_path, "holds " + std::to_string(lines.all().size()) + " times for " +
+                                     std::to_string(trajectory.size()) + " poses");
+  }
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    trajectory[i].time = lines.all()[i].values[0];
+    trajectory[i].time_text = lines.all()[i].first;
+  }
+  require_ascending(times_path, trajectory);
+}
+
+}  // namespace
+
+Trajectory parse_trajectory(const std::string& name, const std::string& text) {
+  const Lines lines(name, text);
+  if (lines.all().empty()) throw InputError(name, "holds no pose");
+  Trajectory trajectory = lines.all().front().values.size() == 3 ? redwood_log(lines) : pose_a_line(lines);
+  require_ascending(name, trajectory);
+  return trajectory;
+}
+
+Trajectory read_trajectory(const std::string& path, const std::string& times_path) {
+  Trajectory trajectory = parse_trajectory(path, read_file(path));
+  if (!times_path.empty()) set_times(times_path, trajectory);
+  return trajectory;
+}
+
+void write_trajectory(const std::string& path, const Trajectory& trajectory) {
+  std::string text = "# time tx ty tz qx qy qz qw  (camera to world, metres)\n";
+  for (const StampedPose& pose : trajectory) {
+    const Eigen::Vector3d& t = pose.T_world_camera.translation();
+    const Eigen::Quaterniond& q = pose.T_world_camera.rotation();
+    char line[256];
+    std::snprintf(line, sizeof(line), " %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", t.x(), t.y(), t.z(), q.x(), q.y(), q.z(),
+                  q.w());
+    text += pose.stamp() + line;
+  }
+  write_file_atomically(path, text);
+}
+
+}  // namespace odosplat
