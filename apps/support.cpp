@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "support.hpp"
+
+#include <sys/resource.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
+#include "odosplat/core/parallel.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+std::atomic<bool> interrupt_flag{false};
+
+extern "C" void on_interrupt(int) {
+  if (interrupt_flag.exchange(true)) std::_Exit(130);
+}
+
+}  // namespace
+
+CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& help) {
+  CLI::App* command = app.add_subcommand(name, help);
+  command->option_defaults()->always_capture_default();
+  command->add_option("--device", common.device,
+                      "OpenCL device: index or part of a name (default: ODOSPLAT_DEVICE, else first GPU, else first CPU)");
+  command->add_option("--threads", common.threads, "CPU threads, 0 = all cores")->check(CLI::NonNegativeNumber);
+  command->add_flag("--profile", common.profile, "print the time of every stage");
+  command->add_option("--log", common.log, "debug, info, warning or off");
+  command->set_config("--config", "", "read flags from a TOML file (flag = value)");
+  command->parse_complete_callback([&common] {
+    set_log_level(common.log);
+    if (common.threads > 0) {
+      set_threads(common.threads);
+      compute::set_cpu_threads(common.threads);
+    }
+  });
+  return command;
+}
+
+compute::Context open_device(const Common& common) {
+  compute::Context context = compute::Context::open(common.device);
+  context.set_profiling(common.profile);
+  log_info("device " + context.device().name + " (" + context.device().platform + ")");
+  return context;
+}
+
+void print_profile(const Common& common, const compute::Context& context) {
+  if (!common.profile) return;
+  std::fprintf(stderr, "%-32s %10s %12s %10s\n", "kernel", "launches", "total ms", "ms each");
+  for (const compute::KernelTime& t : context.kernel_times()) {
+    std::fprintf(stderr, "%-32s %10ld %12.1f %10.3f\n", t.name.c_str(), t.launches, t.milliseconds,
+                 t.milliseconds / static_cast<double>(t.launches));
+  }
+}
+
+void catch_interrupts() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+}
+
+bool interrupted() { return interrupt_flag; }
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+Size parse_size(const std::string& flag, const std::string& text) {
+  Size size;
+  char end = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &end) != 2 || size.width < 1 || size.height < 1 ||
+      size.width > 32768 || size.height > 32768) {
+    throw InputError(flag, "must be WIDTHxHEIGHT in pixels, is " + text);
+  }
+  return size;
+}
+
+}  // namespace odosplat::apps

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <string>
+
+#include "commands.hpp"
+#include "odosplat/compute/context.hpp"
+
+namespace odosplat::apps {
+
+/// Declares a subcommand with the common flags; the common flags are applied before `run` is called.
+CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& help);
+
+/// Opens the device that was asked for and says which one it is on the log.
+compute::Context open_device(const Common& common);
+
+/// With --profile: time of every kernel since the context was opened, on standard error.
+void print_profile(const Common& common, const compute::Context& context);
+
+/// Ctrl-C and SIGTERM set a flag; long loops ask it. A second one ends the process at once.
+void catch_interrupts();
+bool interrupted();
+
+/// Largest resident size of this process so far [MB].
+double peak_memory_mb();
+
+/// "640x480" to width and height in 1..32768; InputError("FLAG", ...) otherwise.
+struct Size {
+  int width = 0;
+  int height = 0;
+};
+Size parse_size(const std::string& flag, const std::string& text);
+
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace odosplat::apps

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+// Who may depend on whom: the link lines of CMake and every include, held against the one table below. CONTRIBUTING.md
+// shows the same table to people.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+const fs::path root = ODOSPLAT_SOURCE_DIR;
+
+struct Room {
+  std::string folder;
+  Names rooms;      // other rooms it may use
+  Names libraries;  // first part of the include paths of foreign libraries it may use
+};
+
+const std::map<std::string, Room> house{
+    {"kernels", {"kernels", {}, {}}},
+    {"core", {"lib/core", {}, {"Eigen", "opencv2/core", "opencv2/imgproc", "spdlog"}}},
+    {"compute", {"lib/compute", {"kernels"}, {"CL", "spdlog"}}},
+    {"io",
+     {"lib/io",
+      {"core"},
+      {"Eigen", "opencv2/core", "opencv2/imgproc", "opencv2/imgcodecs", "opencv2/videoio", "yaml-cpp", "nlohmann",
+       "spdlog"}}},
+    {"map", {"lib/map", {"core"}, {"Eigen", "opencv2/core", "opencv2/imgproc", "nanoflann"}}},
+    {"splat",
+     {"lib/splat", {"core", "compute", "map", "kernels", "io"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
+    {"odometry",
+     {"lib/odometry",
+      {"core", "map"},
+      {"Eigen", "opencv2/core", "opencv2/imgproc", "opencv2/features2d", "opencv2/calib3d", "ceres"}}},
+    {"eval", {"lib/eval", {"core"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
+    {"synth", {"lib/synth", {"core", "map"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
+    {"viewer",
+     {"viewer", {"core", "map", "eval"}, {"Eigen", "opencv2/core", "opencv2/imgproc", "vtk", "EGL", "GL"}}},
+};
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::vector<fs::path> sources_of(const Room& room) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(root / room.folder)) {
+    const std::string extension = entry.path().extension();
+    if (extension == ".cpp" || extension == ".hpp") files.push_back(entry.path());
+  }
+  return files;
+}
+
+std::vector<std::string> includes_of(const std::string& text) {
+  static const std::regex line(R"re(#\s*include\s*[<"]([^>"]+)[>"])re");
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it) found.push_back((*it)[1]);
+  return found;
+}
+
+// "" for the standard library and POSIX, else the library's name as the table has it.
+std::string library_of(const std::string& include) {
+  static const std::regex foreign(R"re((Eigen|opencv2/\w+|ceres|CL|EGL|GL|spdlog|yaml-cpp|nlohmann|tbb|CLI|gtest|gmock)[/.].*)re");
+  std::smatch match;
+  if (std::regex_match(include, match, foreign)) return match[1];
+  if (include.rfind("nanoflann", 0) == 0) return "nanoflann";
+  if (include.rfind("vtk", 0) == 0) return "vtk";
+  return "";
+}
+
+TEST(House, IncludesKeepToTheTable) {
+  for (const auto& [name, room] : house) {
+    for (const fs::path& file : sources_of(room)) {
+      for (const std::string& include : includes_of(text_of(file))) {
+        static const std::regex own(R"re(odosplat/(\w+)/.*)re");
+        std::smatch match;
+        if (std::regex_match(include, match, own)) {
+          const std::string target = match[1];
+          EXPECT_TRUE(target == name || room.rooms.count(target) == 1) << file << " includes " << include;
+        } else if (const std::string library = library_of(include); !library.empty()) {
+          EXPECT_TRUE(room.libraries.count(library) == 1) << file << " includes " << include;
+        }
+      }
+    }
+  }
+}
+
+TEST(House, LinksKeepToTheTable) {
+  const std::string cmake = text_of(root / "lib/CMakeLists.txt") + text_of(root / "viewer/CMakeLists.txt");
+  static const std::regex call(R"re(odosplat_library\((\w+) ([^)]*)\))re");
+  static const std::regex dependency(R"re(odosplat_(\w+))re");
+  int libraries = 0;
+  for (std::sregex_iterator it(cmake.begin(), cmake.end(), call), end; it != end; ++it, ++libraries) {
+    const std::string name = (*it)[1];
+    const std::string arguments = (*it)[2];
+    ASSERT_EQ(house.count(name), 1U) << name << " is not in the table";
+    for (std::sregex_iterator d(arguments.begin(), arguments.end(), dependency); d != end; ++d) {
+      EXPECT_EQ(house.at(name).rooms.count((*d)[1]), 1U) << name << " links " << (*d)[1];
+    }
+  }
+  EXPECT_EQ(libraries, static_cast<int>(house.size()) - 1) << "every room but kernels is declared there";
+}
+
+TEST(House, EveryFolderOfLibIsInTheTable) {
+  for (const auto& entry : fs::directory_iterator(root / "lib")) {
+    if (entry.is_directory()) EXPECT_EQ(house.count(entry.path().filename()), 1U) << entry.path();
+  }
+}
+
+TEST(House, OnlyTheTrackerSeesTheOdometryClass) {
+  for (const fs::path& file : sources_of(house.at("odometry"))) {
+    if (file.stem() == "odometry") continue;
+    for (const std::string& include : includes_of(text_of(file))) {
+      EXPECT_NE(include, "odosplat/odometry/odometry.hpp") << file << ": modules do not know the whole";
+    }
+  }
+}
+
+TEST(House, EveryFileNamesItsLicence) {
+  for (const char* folder : {"lib", "viewer", "apps", "kernels", "tests"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".cpp" && extension != ".hpp" && extension != ".cl" && extension != ".h") continue;
+      EXPECT_NE(text_of(entry.path()).substr(0, 120).find("SPDX-License-Identifier: Apache-2.0"), std::string::npos)
+          << entry.path();
+    }
+  }
+}
+
+}  // namespace
