@@ -19,6 +19,20 @@
 #define NEAR_DEPTH 0.05f
 /* Added to both variances of a projected Gaussian [px^2]: no Gaussian falls between pixel centres. */
 #define DILATION 0.3f
+/* Added likewise before the slope of a Gaussian's depth is taken [px^2]: bounds the slope of Gaussians seen edge-on. */
+#define PLANE_DILATION 0.02f
+/* The ray-plane depth of a Gaussian at a pixel is at most its centre depth divided by this. */
+#define MIN_PLANE_RATIO 0.25f
+/* The slope of the perspective is taken at most this share of half the image beyond its border. */
+#define JACOBIAN_MARGIN 0.3f
+/* Least value of det before / det after dilation in the compensated opacity. */
+#define COMPENSATION_FLOOR 0.005f
+/* Items of a group in kernels with one item a Gaussian or a pair. */
+#define ITEM_GROUP 64
+/* Splats that a group of the pixel shell holds in local memory at a time. */
+#define PIXEL_BATCH 64
+/* Gaussians whose pose gradients one item sums. */
+#define POSE_CHUNK 1024
 
 /* Radix sort: bits a pass, and the size of a digit's table. */
 #define RADIX_BITS 11

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/splat/raster_pairs.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "odosplat/kernels/constants.h"
+
+namespace odosplat {
+namespace {
+
+using compute::Range;
+
+// Pair indices are 32-bit, and the kernels index with signed integers.
+constexpr std::size_t max_pairs = std::size_t{1} << 31;
+
+}  // namespace
+
+RasterPairs::RasterPairs(const compute::Context& context, const compute::Program& program, bool long_chunks)
+    : context_(context),
+      long_chunks_(long_chunks),
+      scan_(context),
+      sort_(context),
+      count_tiles_(program.kernel("count_tiles")),
+      gather_counts_(program.kernel("gather_counts")),
+      emit_pairs_(program.kernel("emit_pairs")),
+      bin_histogram_(program.kernel("bin_histogram")),
+      bin_totals_(program.kernel("bin_totals")),
+      bin_cursors_(program.kernel("bin_cursors")),
+      bin_scatter_(program.kernel("bin_scatter")),
+      gather_pairs_(program.kernel("gather_pairs")) {}
+
+void RasterPairs::build(std::size_t n, const compute::Buffer<float>& boxes,
+                        const compute::Buffer<std::uint32_t>& depth_keys, const std::array<std::int32_t, 4>& grid) {
+  const auto count = static_cast<std::int32_t>(n);
+  const std::size_t tiles = static_cast<std::size_t>(grid[2]) * static_cast<std::size_t>(grid[3]);
+  counts_.resize(context_, n);
+  first_pair_.resize(context_, n);
+  tile_start_.resize(context_, tiles + 1);
+  std::uint32_t total = 0;
+  if (n > 0) {
+    count_tiles_(Range::linear(n, ITEM_GROUP), count, boxes, depth_keys, grid, counts_);
+    if (n * tiles >= max_pairs) {
+      // Only here can the 32-bit sum of the scan wrap.
+      const std::vector<std::uint32_t> all = counts_.download();
+      if (std::accumulate(all.begin(), all.end(), std::size_t{0}) >= max_pairs) {
+        throw compute::DeviceError("more than 2^31 pairs of Gaussian and tile: " + std::to_string(n) +
+                                   " Gaussians are too large for this image");
+      }
+    }
+    sort_.sort(depth_keys, n, order_);
+    ordered_counts_.resize(context_, n);
+    gather_counts_(Range::linear(n, ITEM_GROUP), count, order_, counts_, ordered_counts_);
+    scan_.exclusive(ordered_counts_, n, offsets_);
+    offsets_.download(&total, 1, n);
+  }
+  pairs_ = total;
+  pair_tile_.resize(context_, pairs_);
+  pair_owner_.resize(context_, pairs_);
+  list_.resize(context_, pairs_);
+  slot_.resize(context_, pairs_);
+  if (pairs_ == 0) {
+    tile_start_.fill_zero();
+    return;
+  }
+  emit_pairs_(Range::linear(n, ITEM_GROUP), count, order_, boxes, offsets_, grid, first_pair_, pair_tile_, pair_owner_);
+  if (long_chunks_) {
+    sort_in_chunks(tiles);
+  } else {
+    sort_by_radix(tiles);
+  }
+}
+
+void RasterPairs::sort_in_chunks(std::size_t tiles) {
+  const std::size_t wanted = std::clamp<std::size_t>(2 * std::size_t{context_.device().compute_units}, 8, 128);
+  const std::size_t chunk_size = (pairs_ + wanted - 1) / wanted;
+  const std::size_t chunks = (pairs_ + chunk_size - 1) / chunk_size;
+  const auto pairs = static_cast<std::uint32_t>(pairs_);
+  const auto chunk_arg = static_cast<std::uint32_t>(chunk_size);
+  const auto tiles_arg = static_cast<std::int32_t>(tiles);
+  const auto chunks_arg = static_cast<std::int32_t>(chunks);
+  histogram_.resize(context_, chunks * tiles);
+  totals_.resize(context_, tiles);
+  bin_histogram_(Range::linear(chunks, 1), pairs, chunk_arg, tiles_arg, pair_tile_, histogram_);
+  bin_totals_(Range::linear(tiles, ITEM_GROUP), tiles_arg, chunks_arg, histogram_, totals_);
+  scan_.exclusive(totals_, tiles, tile_start_);
+  bin_cursors_(Range::linear(tiles, ITEM_GROUP), tiles_arg, chunks_arg, tile_start_, histogram_);
+  bin_scatter_(Range::linear(chunks, 1), pairs, chunk_arg, tiles_arg, pair_tile_, pair_owner_, histogram_, list_,
+               slot_);
+}
+
+void RasterPairs::sort_by_radix(std::size_t tiles) {
+  sort_.sort(pair_tile_, pairs_, slot_);
+  gather_pairs_(Range::linear(pairs_, ITEM_GROUP), static_cast<std::uint32_t>(pairs_), static_cast<std::int32_t>(tiles),
+                slot_, pair_tile_, pair_owner_, list_, tile_start_);
+}
+
+}  // namespace odosplat
