@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <span>
+
+#include "odosplat/core/se3.hpp"
+#include "odosplat/odometry/frame.hpp"
+#include "odosplat/odometry/tracking_reference.hpp"
+
+namespace odosplat {
+
+struct TrackerOptions {
+  double huber = 9.0 / 255;    // [grey] residuals beyond weigh less
+  double cutoff = 20.0 / 255;  // [grey] residuals beyond count as outliers
+  int max_iterations = 30;     // a level
+  double converged = 0.02;     // [px] predicted image motion of a step below which a level is done
+  double min_coverage = 0.2;   // share of points that must stay in view
+  double max_log_gain = 1.2;   // |a| of the relative brightness, natural log
+  double gain_sigma = 0.5;     // weak prior on a, relative to its guess
+  double offset_sigma = 0.5;   // [grey] weak prior on b
+  double noise = 5.0 / 255;    // [grey] of one residual, for covariance and priors
+
+  void check() const;
+};
+
+/// Where a frame was found. T_target_host: p_target = T * p_host. brightness: I_target = e^a I_host + b.
+struct Alignment {
+  SE3 T_target_host;
+  Brightness brightness;
+  double rmse = 0.0;          // [grey] of the inliers on the finest level
+  double inlier_share = 0.0;  // of the points in view
+  double coverage = 0.0;      // share of all points that are in view
+  double contrast = 0.0;      // spread of the frame's values at the points over what the host's values predict
+  int points = 0;             // inliers on the finest level
+  /// Of exp(xi) applied on the right of T_target_host, xi = (translation, rotation).
+  Matrix6d information = Matrix6d::Zero();
+  bool finished = false;  // false: too few points in view, or not finite
+};
+
+/// Coarse-to-fine direct alignment: minimises sum w huber(I_target(pi(T p)) - e^a I_host(p) - b) over T, a, b.
+/// Source: DSO's coarse tracker (residual, Huber, cut-off); template Jacobians of Baker and Matthews 2004 instead of
+/// gradients in the target, so that a frame needs nothing but its grey pyramid. Levenberg-Marquardt.
+/// Deterministic (one thread). Const: may be shared.
+class Tracker {
+ public:
+  explicit Tracker(const TrackerOptions& options);
+
+  /// Levels from `coarsest` down to `finest` (clamped to those that both sides have) from the guess.
+  Alignment align(const TrackingReference& reference, const FramePyramid& target, const SE3& T_target_host_guess,
+                  const Brightness& brightness_guess, int coarsest, int finest) const;
+
+  /// The best of several guesses: each is aligned on the coarsest level alone; the best three go on to level 0.
+  /// guesses must not be empty.
+  Alignment align_best(const TrackingReference& reference, const FramePyramid& target, std::span<const SE3> guesses,
+                       const Brightness& brightness_guess) const;
+
+  const TrackerOptions& options() const { return options_; }
+
+ private:
+  TrackerOptions options_;
+};
+
+}  // namespace odosplat

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/odometry/tracking_reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "odosplat/core/error.hpp"
+
+namespace odosplat {
+
+void ReferenceOptions::check() const {
+  require(points >= 50, "reference.points", "at least 50");
+  require(level_share > 0.0 && level_share <= 1.0, "reference.level_share", "in (0, 1]");
+  require(min_points >= 10, "reference.min_points", "at least 10");
+  require(gradient_weight > 0.0, "reference.gradient_weight", "positive");
+}
+
+int ReferenceOptions::wanted(const Camera& camera) const {
+  const double area = static_cast<double>(camera.width) * camera.height / (320.0 * 240.0);
+  return static_cast<int>(std::lround(points * std::sqrt(area)));
+}
+
+Eigen::Matrix<double, 2, 6> projection_jacobian(const Camera& camera, const Eigen::Vector3d& p_camera) {
+  const double rz = 1.0 / p_camera.z();
+  const double x = p_camera.x() * rz;
+  const double y = p_camera.y() * rz;
+  Eigen::Matrix<double, 2, 6> J;
+  J << camera.fx * rz, 0.0, -camera.fx * x * rz, -camera.fx * x * y, camera.fx * (1.0 + x * x), -camera.fx * y,  //
+      0.0, camera.fy * rz, -camera.fy * y * rz, -camera.fy * (1.0 + y * y), camera.fy * x * y, camera.fy * x;
+  return J;
+}
+
+TrackingReference build_reference(const FramePyramid& pyramid, std::span<const GradientImage> gradients,
+                                  const ViewImages& view, PixelSelector& selector, const ReferenceOptions& options,
+                                  const MapPlaneOptions& plane_options) {
+  TrackingReference reference;
+  reference.cameras = pyramid.cameras;
+  reference.levels.resize(pyramid.gray.size());
+  if (view.depth.empty()) return reference;
+  double wanted = options.wanted(pyramid.cameras.front());
+  const float c2 = static_cast<float>(options.gradient_weight * options.gradient_weight);
+  for (int l = 0; l < pyramid.levels(); ++l) {
+    const auto level = static_cast<std::size_t>(l);
+    const Camera& camera = pyramid.cameras[level];
+    const GradientImage& gradient = gradients[level];
+    const int scale = 1 << l;
+    // Pixel (x, y) of this level covers [scale * x, scale * (x + 1)) of level 0; its depth is read in the middle.
+    const auto full = [scale](int x) { return x * scale + scale / 2; };
+    cv::Mat1b mask(gradient.rows, gradient.cols);
+    for (int y = 0; y < mask.rows; ++y) {
+      const float* z = view.depth[full(y)];
+      for (int x = 0; x < mask.cols; ++x) mask(y, x) = z[full(x)] > 0.0F ? 1 : 0;
+    }
+    const auto pixels = selector.select(gradients.subspan(level), mask, static_cast<int>(wanted));
+    wanted = std::max<double>(options.min_points, wanted * options.level_share);
+    auto& points = reference.levels[level];
+    points.reserve(pixels.size());
+    for (const cv::Point& pixel : pixels) {
+      const auto surface =
+          fit_surface(pyramid.cameras[0], view.depth, view.sigma, full(pixel.x), full(pixel.y), scale, plane_options);
+      if (!surface) continue;
+      const Eigen::Vector3d ray = camera.ray(pixel.x, pixel.y);
+      // The fitted plane's depth on this level's own ray: level 0 pixels lie up to half a pixel beside it.
+      const double q = surface->edge ? surface->inverse_depth : surface->m_camera.dot(ray);
+      if (!(q > 0.0)) continue;
+      const Eigen::Vector3d p = ray / q;
+      const float* g = gradient.ptr<float>(pixel.y) + 4 * pixel.x;
+      const Eigen::Matrix<double, 2, 6> J = projection_jacobian(camera, p);
+      ReferencePoint out{};
+      out.x = static_cast<float>(p.x());
+      out.y = static_cast<float>(p.y());
+      out.z = static_cast<float>(p.z());
+      out.intensity = g[0];
+      out.weight = c2 / (c2 + g[3]);
+      out.u = static_cast<float>(pixel.x);
+      out.v = static_cast<float>(pixel.y);
+      out.inverse_sigma = static_cast<float>(1.0 / surface->sigma);
+      for (int k = 0; k < 6; ++k) out.jacobian[k] = static_cast<float>(g[1] * J(0, k) + g[2] * J(1, k));
+      out.jacobian[6] = -g[0];
+      out.jacobian[7] = -1.0F;
+      points.push_back(out);
+    }
+  }
+  return reference;
+}
+
+}  // namespace odosplat

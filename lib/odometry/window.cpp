@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/odometry/window.hpp"
+
+#include <cmath>
+
+#include "odosplat/core/error.hpp"
+
+namespace odosplat {
+namespace {
+
+double distance(const Keyframe& a, const Keyframe& b) {
+  return (a.T_world_camera.translation() - b.T_world_camera.translation()).norm();
+}
+
+/// Share of the host's points that project into the other keyframe's image.
+double visible_share(const Keyframe& host, const Keyframe& other, const Camera& camera) {
+  if (host.points.empty()) return 0.0;
+  const SE3 T_other_world = other.T_world_camera.inverse();
+  int seen = 0;
+  for (const WindowPoint& point : host.points) {
+    const Eigen::Vector3d ray = camera.ray(point.u, point.v);
+    const double q = plane_in_camera(point.plane_world, host.T_world_camera).dot(ray);
+    if (!(q > 0.0)) continue;
+    const Eigen::Vector3d p = T_other_world * (host.T_world_camera * (ray / q));
+    if (!(p.z() > 0.0)) continue;
+    const Eigen::Vector2d uv = camera.project(p);
+    if (uv.x() >= 0 && uv.y() >= 0 && uv.x() <= camera.width - 1 && uv.y() <= camera.height - 1) ++seen;
+  }
+  return static_cast<double>(seen) / static_cast<double>(host.points.size());
+}
+
+}  // namespace
+
+void WindowOptions::check() const {
+  require(max_keyframes >= 3 && max_keyframes <= 20, "window.max_keyframes", "3 to 20");
+  require(min_visible >= 0.0 && min_visible < 1.0, "window.min_visible", "in [0, 1)");
+}
+
+int keyframe_to_drop(const Window& window, const Camera& camera, const WindowOptions& options) {
+  const auto& keyframes = window.keyframes;
+  const int n = static_cast<int>(keyframes.size());
+  if (n < options.max_keyframes) return -1;
+  const Keyframe& newest = *keyframes.back();
+  for (int i = 0; i < n - 2; ++i) {
+    if (visible_share(*keyframes[static_cast<std::size_t>(i)], newest, camera) < options.min_visible) return i;
+  }
+  int worst = 0;
+  double worst_score = -1.0;
+  for (int i = 0; i < n - 2; ++i) {
+    const Keyframe& candidate = *keyframes[static_cast<std::size_t>(i)];
+    double sum = 0.0;
+    for (int j = 0; j < n; ++j) {
+      if (j != i) sum += 1.0 / (1e-5 + distance(candidate, *keyframes[static_cast<std::size_t>(j)]));
+    }
+    const double score = std::sqrt(distance(candidate, newest)) * sum;
+    if (score > worst_score) {
+      worst = i;
+      worst_score = score;
+    }
+  }
+  return worst;
+}
+
+}  // namespace odosplat

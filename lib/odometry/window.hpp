@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "odosplat/odometry/keyframe.hpp"
+
+namespace odosplat {
+
+struct WindowOptions {
+  int max_keyframes = 7;
+  double min_visible = 0.05;  // share of a keyframe's points that the newest must see for it to stay
+
+  void check() const;
+};
+
+/// The keyframes that are adjusted together, oldest first.
+struct Window {
+  std::vector<std::shared_ptr<Keyframe>> keyframes;
+};
+
+/// Index of the keyframe that should leave before another is added, or -1 while there is room. The two newest stay.
+/// Source: DSO, section 3.1: first one that the newest hardly sees; else the one of the largest distance score
+/// sqrt(d(i, newest)) sum_j 1 / (d(i, j) + eps), which keeps keyframes well spread with more near the newest.
+int keyframe_to_drop(const Window& window, const Camera& camera, const WindowOptions& options);
+
+}  // namespace odosplat

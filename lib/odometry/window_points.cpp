@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/odometry/window_points.hpp"
+
+#include "odosplat/core/error.hpp"
+
+namespace odosplat {
+
+void WindowPointOptions::check() const {
+  require(points >= 10, "window_points.points", "at least 10");
+  require(anchor_points >= 10, "window_points.anchor_points", "at least 10");
+  require(gradient_weight > 0.0, "window_points.gradient_weight", "positive");
+  require(min_alpha >= 0.0 && min_alpha <= 1.0, "window_points.min_alpha", "in [0, 1]");
+}
+
+std::vector<WindowPoint> make_window_points(const Camera& camera, std::span<const GradientImage> gradients,
+                                            const ViewImages& view, const SE3& T_world_host, int wanted,
+                                            PixelSelector& selector, const WindowPointOptions& options,
+                                            const MapPlaneOptions& plane_options) {
+  std::vector<WindowPoint> points;
+  if (view.depth.empty() || gradients.empty()) return points;
+  const GradientImage& gradient = gradients[0];
+  const auto min_alpha = static_cast<float>(options.min_alpha);
+  cv::Mat1b mask(gradient.rows, gradient.cols);
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      const bool covered = view.alpha.empty() || view.alpha(y, x) >= min_alpha;
+      mask(y, x) = covered && view.depth(y, x) > 0.0F ? 1 : 0;
+    }
+  }
+  const float c2 = static_cast<float>(options.gradient_weight * options.gradient_weight);
+  for (const cv::Point& pixel : selector.select(gradients, mask, wanted)) {
+    const auto surface = fit_surface(camera, view.depth, view.sigma, pixel.x, pixel.y, 1, plane_options);
+    if (!surface) continue;
+    WindowPoint point;
+    point.u = static_cast<float>(pixel.x);
+    point.v = static_cast<float>(pixel.y);
+    point.plane_world = world_plane(surface->m_camera, T_world_host);
+    point.sigma = surface->sigma;
+    for (std::size_t k = 0; k < pattern_size; ++k) {
+      const float* g = gradient.ptr<float>(pixel.y + pattern[k][1]) + 4 * (pixel.x + pattern[k][0]);
+      point.intensity[k] = g[0];
+      point.weight[k] = c2 / (c2 + g[3]);
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace odosplat

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <vector>
+
+#include "odosplat/map/map_view.hpp"
+#include "odosplat/odometry/frame.hpp"
+
+namespace odosplat::test {
+
+/// A box room seen from inside, its six walls painted with smooth sines: depth and colour are exact at every pixel, so
+/// that errors are the odometry's alone. Also a MapView.
+class BoxRoom : public MapView {
+ public:
+  Eigen::Vector3d half_size{2.5, 1.6, 3.0};  // [m]
+  double detail = 1.0;                       // factor of the texture's spatial frequency
+  bool with_depth = true;
+  bool with_color = true;
+  double depth_factor = 1.0;  // of the rendered depth: a map of the wrong scale
+  double gamma = 1.0;         // of the rendered colours: a map in other colours
+  int renders = 0;
+
+  ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override;
+  std::string name() const override { return "box room"; }
+
+  /// Grey value of the wall point [m], 0..1.
+  double texture(const Eigen::Vector3d& p_world) const;
+  /// Depth along the optical axis of the ray through the pixel [m].
+  double depth(const Camera& camera, const SE3& T_world_camera, double u, double v) const;
+  GrayImage gray(const Camera& camera, const SE3& T_world_camera) const;
+};
+
+/// 160 x 120 with a horizontal field of view of 67 degrees.
+Camera small_camera();
+
+/// A smooth hand-held path through the room; pose number k of a 30 Hz camera.
+SE3 room_path(int k);
+
+}  // namespace odosplat::test
