@@ -8,7 +8,7 @@ kernel void project_backward(int n, global const float* restrict positions, glob
                              global const float* restrict rotations, global const float* restrict opacity_logits,
                              float16 pose, float8 lens, float dilation, int compensated, int ray_plane,
                              global const uint* restrict counts,
-                             global const uint* restrict first_pair, global const float* restrict slots,
+                             global const uint* restrict offsets, global const float* restrict slots,
                              global float* restrict position_gradients, global float* restrict log_scale_gradients,
                              global float* restrict rotation_gradients, global float* restrict opacity_gradients,
                              global float4* restrict color_gradients, global float* restrict screen_gradients,
@@ -28,7 +28,7 @@ kernel void project_backward(int n, global const float* restrict positions, glob
     return;
   }
   float sum[SLOT_FLOATS];
-  global const float* slot = slots + (size_t)first_pair[g] * SLOT_FLOATS;
+  global const float* slot = slots + (size_t)offsets[g] * SLOT_FLOATS;
   for (int i = 0; i < SLOT_FLOATS; ++i) sum[i] = slot[i];
   for (uint k = 1; k < count; ++k) {
     slot += SLOT_FLOATS;

@@ -25,12 +25,13 @@ RasterPairs::RasterPairs(const compute::Context& context, const compute::Program
       scan_(context),
       sort_(context),
       count_tiles_(program.kernel("count_tiles")),
-      gather_counts_(program.kernel("gather_counts")),
       emit_pairs_(program.kernel("emit_pairs")),
       bin_histogram_(program.kernel("bin_histogram")),
       bin_totals_(program.kernel("bin_totals")),
       bin_cursors_(program.kernel("bin_cursors")),
       bin_scatter_(program.kernel("bin_scatter")),
+      gather_counts_(program.kernel("gather_counts")),
+      order_pairs_(program.kernel("order_pairs")),
       gather_pairs_(program.kernel("gather_pairs")) {}
 
 void RasterPairs::build(std::size_t n, const compute::Buffer<float>& boxes,
@@ -38,7 +39,7 @@ void RasterPairs::build(std::size_t n, const compute::Buffer<float>& boxes,
   const auto count = static_cast<std::int32_t>(n);
   const std::size_t tiles = static_cast<std::size_t>(grid[2]) * static_cast<std::size_t>(grid[3]);
   counts_.resize(context_, n);
-  first_pair_.resize(context_, n);
+  offsets_.resize(context_, n + 1);
   tile_start_.resize(context_, tiles + 1);
   std::uint32_t total = 0;
   if (n > 0) {
@@ -51,51 +52,56 @@ void RasterPairs::build(std::size_t n, const compute::Buffer<float>& boxes,
                                    " Gaussians are too large for this image");
       }
     }
+    scan_.exclusive(counts_, n, offsets_);
     sort_.sort(depth_keys, n, order_);
-    ordered_counts_.resize(context_, n);
-    gather_counts_(Range::linear(n, ITEM_GROUP), count, order_, counts_, ordered_counts_);
-    scan_.exclusive(ordered_counts_, n, offsets_);
     offsets_.download(&total, 1, n);
   }
   pairs_ = total;
-  pair_tile_.resize(context_, pairs_);
-  pair_owner_.resize(context_, pairs_);
+  slot_tile_.resize(context_, pairs_);
   list_.resize(context_, pairs_);
   slot_.resize(context_, pairs_);
   if (pairs_ == 0) {
     tile_start_.fill_zero();
     return;
   }
-  emit_pairs_(Range::linear(n, ITEM_GROUP), count, order_, boxes, offsets_, grid, first_pair_, pair_tile_, pair_owner_);
+  emit_pairs_(Range::linear(n, ITEM_GROUP), count, boxes, offsets_, grid, slot_tile_);
   if (long_chunks_) {
-    sort_in_chunks(tiles);
+    sort_in_chunks(n, tiles);
   } else {
-    sort_by_radix(tiles);
+    sort_by_radix(n, tiles);
   }
 }
 
-void RasterPairs::sort_in_chunks(std::size_t tiles) {
+void RasterPairs::sort_in_chunks(std::size_t n, std::size_t tiles) {
   const std::size_t wanted = std::clamp<std::size_t>(2 * std::size_t{context_.device().compute_units}, 8, 128);
-  const std::size_t chunk_size = (pairs_ + wanted - 1) / wanted;
-  const std::size_t chunks = (pairs_ + chunk_size - 1) / chunk_size;
-  const auto pairs = static_cast<std::uint32_t>(pairs_);
-  const auto chunk_arg = static_cast<std::uint32_t>(chunk_size);
+  const std::size_t chunk_size = (n + wanted - 1) / wanted;
+  const std::size_t chunks = (n + chunk_size - 1) / chunk_size;
+  const auto n_arg = static_cast<std::int32_t>(n);
+  const auto chunk_arg = static_cast<std::int32_t>(chunk_size);
   const auto tiles_arg = static_cast<std::int32_t>(tiles);
   const auto chunks_arg = static_cast<std::int32_t>(chunks);
   histogram_.resize(context_, chunks * tiles);
   totals_.resize(context_, tiles);
-  bin_histogram_(Range::linear(chunks, 1), pairs, chunk_arg, tiles_arg, pair_tile_, histogram_);
+  bin_histogram_(Range::linear(chunks, 1), n_arg, chunk_arg, tiles_arg, order_, offsets_, slot_tile_, histogram_);
   bin_totals_(Range::linear(tiles, ITEM_GROUP), tiles_arg, chunks_arg, histogram_, totals_);
   scan_.exclusive(totals_, tiles, tile_start_);
   bin_cursors_(Range::linear(tiles, ITEM_GROUP), tiles_arg, chunks_arg, tile_start_, histogram_);
-  bin_scatter_(Range::linear(chunks, 1), pairs, chunk_arg, tiles_arg, pair_tile_, pair_owner_, histogram_, list_,
+  bin_scatter_(Range::linear(chunks, 1), n_arg, chunk_arg, tiles_arg, order_, offsets_, slot_tile_, histogram_, list_,
                slot_);
 }
 
-void RasterPairs::sort_by_radix(std::size_t tiles) {
-  sort_.sort(pair_tile_, pairs_, slot_);
+void RasterPairs::sort_by_radix(std::size_t n, std::size_t tiles) {
+  const auto n_arg = static_cast<std::int32_t>(n);
+  depth_counts_.resize(context_, n);
+  depth_tile_.resize(context_, pairs_);
+  depth_pair_.resize(context_, 2 * pairs_);
+  gather_counts_(Range::linear(n, ITEM_GROUP), n_arg, order_, counts_, depth_counts_);
+  scan_.exclusive(depth_counts_, n, depth_offsets_);
+  order_pairs_(Range::linear(n, ITEM_GROUP), n_arg, order_, offsets_, depth_offsets_, slot_tile_, depth_tile_,
+               depth_pair_);
+  sort_.sort(depth_tile_, pairs_, sorted_);
   gather_pairs_(Range::linear(pairs_, ITEM_GROUP), static_cast<std::uint32_t>(pairs_), static_cast<std::int32_t>(tiles),
-                slot_, pair_tile_, pair_owner_, list_, tile_start_);
+                sorted_, depth_tile_, depth_pair_, list_, slot_, tile_start_);
 }
 
 }  // namespace odosplat

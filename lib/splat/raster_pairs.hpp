@@ -13,10 +13,10 @@
 namespace odosplat {
 
 /// Lists of the Gaussians that each tile of an image shows, from near to far.
-/// Steps: exact count of tiles a Gaussian, radix sort of the Gaussians by depth, pairs (Gaussian, tile) emitted in that
-/// order, stable sort of the pairs by tile: a counting sort over a few long chunks where `long_chunks` (CPUs), else a
-/// radix sort. Both give the same lists, in which equal depths keep the order of the Gaussians.
-/// Not thread safe. Waits once, to learn the number of pairs. Throws compute::DeviceError.
+/// Steps: exact count of tiles a Gaussian, its scan (a pair's place in it is its slot), tiles written to the slots,
+/// radix sort of the Gaussians by depth, stable sort of the pairs by tile in that order: a counting sort over a few
+/// long chunks where `long_chunks` (CPUs), else a radix sort. Both give the same lists; equal depths keep the order of
+/// the Gaussians. Not thread safe. Waits once, to learn the number of pairs. Throws compute::DeviceError.
 class RasterPairs {
  public:
   RasterPairs(const compute::Context& context, const compute::Program& program, bool long_chunks);
@@ -27,25 +27,26 @@ class RasterPairs {
 
   std::size_t size() const { return pairs_; }
   const compute::Buffer<std::uint32_t>& counts() const { return counts_; }          // [N] tiles of Gaussian g
-  const compute::Buffer<std::uint32_t>& first_pair() const { return first_pair_; }  // [N] its first slot
+  const compute::Buffer<std::uint32_t>& offsets() const { return offsets_; }        // [N + 1] its first slot
   const compute::Buffer<std::uint32_t>& tile_start() const { return tile_start_; }  // [tiles + 1] into list
   const compute::Buffer<std::uint32_t>& list() const { return list_; }              // [pairs] Gaussian
   const compute::Buffer<std::uint32_t>& slot() const { return slot_; }              // [pairs] slot of the pair
 
  private:
-  void sort_in_chunks(std::size_t tiles);
-  void sort_by_radix(std::size_t tiles);
+  void sort_in_chunks(std::size_t n, std::size_t tiles);
+  void sort_by_radix(std::size_t n, std::size_t tiles);
 
   compute::Context context_;
   bool long_chunks_;
   compute::Scan scan_;
   compute::RadixSort sort_;
-  compute::Kernel count_tiles_, gather_counts_, emit_pairs_;
-  compute::Kernel bin_histogram_, bin_totals_, bin_cursors_, bin_scatter_, gather_pairs_;
+  compute::Kernel count_tiles_, emit_pairs_;
+  compute::Kernel bin_histogram_, bin_totals_, bin_cursors_, bin_scatter_;  // long chunks
+  compute::Kernel gather_counts_, order_pairs_, gather_pairs_;              // radix
   std::size_t pairs_ = 0;
-  compute::Buffer<std::uint32_t> counts_, order_, ordered_counts_, offsets_, first_pair_;
-  compute::Buffer<std::uint32_t> pair_tile_, pair_owner_, list_, slot_;
-  compute::Buffer<std::uint32_t> tile_start_, histogram_, totals_;
+  compute::Buffer<std::uint32_t> counts_, offsets_, order_, slot_tile_, list_, slot_, tile_start_;
+  compute::Buffer<std::uint32_t> histogram_, totals_;
+  compute::Buffer<std::uint32_t> depth_counts_, depth_offsets_, depth_tile_, depth_pair_, sorted_;
 };
 
 }  // namespace odosplat

@@ -198,8 +198,8 @@ void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGr
   kernel("project_backward", files, images)(
       items, n, gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
       view.lens, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane}, pairs.counts(),
-      pairs.first_pair(), slots, gradients.positions, gradients.log_scales, gradients.rotations,
-      gradients.opacity_logits, color_gradients, screen_gradients, std::int32_t{with_pose}, pose_terms);
+      pairs.offsets(), slots, gradients.positions, gradients.log_scales, gradients.rotations, gradients.opacity_logits,
+      color_gradients, screen_gradients, std::int32_t{with_pose}, pose_terms);
   if (color) {
     kernel("shade_backward", {"sh.cl", "shade_backward.cl"})(
         items, n, gaussians.positions, gaussians.sh, std::int32_t{sh_degree}, std::int32_t{gaussians.coefficients()},
