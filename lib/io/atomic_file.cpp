@@ -6,10 +6,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "odosplat/core/error.hpp"
 
@@ -18,77 +20,102 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In the target's own folder: rename works within one file system only.
-std::string name_beside(const std::string& path) { return path + ".part" + std::to_string(getpid()); }
+// In the target's own folder, since rename works within one file system only; apart for each process and file.
+std::string name_beside(const std::string& path) {
+  static std::atomic<unsigned> count{0};
+  return path + ".part" + std::to_string(getpid()) + "_" + std::to_string(count++);
+}
 
-[[noreturn]] void fail(const std::string& path, const std::string& beside, int error) {
-  if (!beside.empty()) ::unlink(beside.c_str());
-  throw InputError(path, std::string("cannot be written: ") + std::strerror(error));
+std::string cannot_write(const std::string& reason) { return "cannot be written: " + reason; }
+
+void make_folder(const std::string& folder, const std::string& named_in_error) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(named_in_error, cannot_write(error.message()));
 }
 
 void make_parent(const std::string& path) {
   const fs::path parent = fs::path(path).parent_path();
-  if (parent.empty()) return;
-  std::error_code error;
-  fs::create_directories(parent, error);
-  if (error) throw InputError(path, "cannot be written: " + parent.string() + ": " + error.message());
+  if (!parent.empty()) make_folder(parent.string(), path);
 }
 
-}  // namespace
-
-void write_file_atomically(const std::string& path, const std::string& bytes) {
-  make_parent(path);
-  const std::string beside = name_beside(path);
-  const int file = ::open(beside.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) fail(path, "", errno);
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t n = ::write(file, bytes.data() + done, bytes.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) {
-      const int error = errno;
-      ::close(file);
-      fail(path, beside, error);
-    }
-    done += static_cast<std::size_t>(n);
-  }
-  if (::close(file) != 0) fail(path, beside, errno);
-  if (std::rename(beside.c_str(), path.c_str()) != 0) fail(path, beside, errno);
-}
-
-void ensure_output_folder(const std::string& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw InputError(path, "cannot be written: " + error.message());
-  if (!fs::is_directory(path, error)) throw InputError(path, "cannot be written: it is not a folder");
-  const std::string probe = name_beside((fs::path(path) / "probe").string());
+void prove_writable(const std::string& folder, const std::string& named_in_error) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) throw InputError(named_in_error, cannot_write("not a folder"));
+  const std::string probe = name_beside((fs::path(folder) / "probe").string());
   const int file = ::open(probe.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
-  if (file < 0) fail(path, "", errno);
+  if (file < 0) throw InputError(named_in_error, cannot_write(std::strerror(errno)));
   ::close(file);
   ::unlink(probe.c_str());
 }
 
-void ensure_output_file(const std::string& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) throw InputError(path, "cannot be written: it is a folder");
-  const std::string parent = fs::path(path).parent_path().string();
-  try {
-    ensure_output_folder(parent.empty() ? "." : parent);
-  } catch (const InputError& e) {
-    throw InputError(path, std::string("cannot be written: ") + e.what());
+}  // namespace
+
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
+  make_parent(path_);
+  beside_ = name_beside(path_);
+  file_ = ::open(beside_.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0666);
+  if (file_ < 0) throw InputError(path_, cannot_write(std::strerror(errno)));
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(file_, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(errno);
+    bytes.remove_prefix(static_cast<std::size_t>(n));
   }
+}
+
+void AtomicFile::commit() {
+  const int closed = ::close(std::exchange(file_, -1));
+  if (closed != 0) fail(errno);
+  if (std::rename(beside_.c_str(), path_.c_str()) != 0) fail(errno);
+  beside_.clear();
+}
+
+void AtomicFile::fail(int error) {
+  discard();
+  throw InputError(path_, cannot_write(std::strerror(error)));
+}
+
+void AtomicFile::discard() {
+  if (file_ >= 0) ::close(std::exchange(file_, -1));
+  if (!beside_.empty()) ::unlink(beside_.c_str());
+  beside_.clear();
+}
+
+void write_file_atomically(const std::string& path, std::string_view bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+void ensure_output_folder(const std::string& path) {
+  make_folder(path, path);
+  prove_writable(path, path);
+}
+
+void ensure_output_file(const std::string& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) throw InputError(path, cannot_write("is a folder"));
+  make_parent(path);
+  const std::string parent = fs::path(path).parent_path().string();
+  prove_writable(parent.empty() ? "." : parent, path);
 }
 
 std::string read_file(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) throw InputError(path, std::strerror(errno));
+  if (file < 0) throw InputError(path, errno == ENOENT ? "is missing" : std::strerror(errno));
   struct stat status {};
   if (::fstat(file, &status) != 0 || S_ISDIR(status.st_mode)) {
     ::close(file);
     throw InputError(path, "is not a file");
   }
   std::string content;
-  content.reserve(static_cast<std::size_t>(status.st_size) + 1);
+  content.reserve(static_cast<std::size_t>(status.st_size));
   char block[1 << 16];
   while (true) {
     const ssize_t n = ::read(file, block, sizeof(block));

@@ -3,13 +3,36 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace odosplat {
 
-/// Writes `bytes` to a file beside `path` and renames it: a reader sees the old file or the whole new one, never a
-/// part. Missing parent folders are made. Throws InputError naming the path and the reason; nothing is left behind
-/// then.
-void write_file_atomically(const std::string& path, const std::string& bytes);
+/// A file that is written beside its place and renamed at the end: a reader sees the old file or the whole new one,
+/// never a part. Missing parent folders are made. Every call throws InputError naming the path and the reason ("cannot
+/// be written"). Without commit() the destructor leaves nothing behind. Not thread safe; different files may be written
+/// by different threads.
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::string path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(std::string_view bytes);
+  /// Closes and renames. To be called once, after the last write.
+  void commit();
+
+ private:
+  [[noreturn]] void fail(int error);
+  void discard();
+
+  std::string path_;
+  std::string beside_;
+  int file_ = -1;
+};
+
+/// All of a file at once.
+void write_file_atomically(const std::string& path, std::string_view bytes);
 
 /// Makes the folder (and its parents) if need be and proves that files can be written there. InputError otherwise.
 /// Programs call this before they compute anything.
@@ -18,7 +41,7 @@ void ensure_output_folder(const std::string& path);
 /// The same for the folder of a file that will be written later.
 void ensure_output_file(const std::string& path);
 
-/// Whole content of a regular file. InputError if it is missing, a folder, or cannot be read.
+/// Whole content of a file. InputError if it is missing, a folder, or cannot be read.
 std::string read_file(const std::string& path);
 
 }  // namespace odosplat

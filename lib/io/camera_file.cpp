@@ -4,8 +4,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "odosplat/core/error.hpp"
@@ -14,9 +14,12 @@
 namespace odosplat {
 namespace {
 
+constexpr std::size_t max_size = 1 << 20;
+
 class Reader {
  public:
   Reader(std::string name, const std::string& text) : name_(std::move(name)) {
+    if (text.size() > max_size) throw InputError(name_, "is too long for a camera file");
     try {
       root_ = YAML::Load(text);
     } catch (const YAML::Exception& e) {
@@ -74,6 +77,23 @@ class Reader {
   YAML::Node root_;
 };
 
+// The shortest text that reads back as the same bits.
+std::string shortest(double value) {
+  char buffer[32];
+  const std::to_chars_result result = std::to_chars(buffer, buffer + sizeof(buffer), value);
+  return {buffer, result.ptr};
+}
+
+// YAML's double quotes.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
 }  // namespace
 
 CameraFile parse_camera_file(const std::string& name, const std::string& text) {
@@ -123,30 +143,22 @@ CameraFile read_camera_file(const std::string& path) { return parse_camera_file(
 
 void write_camera_file(const std::string& path, const CameraFile& file) {
   std::string text;
-  auto line = [&text](const char* key, double value) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof(buffer), "%s: %.17g\n", key, value);
-    text += buffer;
-  };
-  line("width", file.camera.width);
-  line("height", file.camera.height);
-  line("fx", file.camera.fx);
-  line("fy", file.fy_sign * file.camera.fy);
-  line("cx", file.camera.cx);
-  line("cy", file.camera.cy);
-  line("depth_scale", file.depth_scale);
+  auto line = [&text](const char* key, const std::string& value) { text += std::string(key) + ": " + value + "\n"; };
+  line("width", std::to_string(file.camera.width));
+  line("height", std::to_string(file.camera.height));
+  line("fx", shortest(file.camera.fx));
+  line("fy", shortest(file.fy_sign * file.camera.fy));
+  line("cx", shortest(file.camera.cx));
+  line("cy", shortest(file.camera.cy));
+  line("depth_scale", shortest(file.depth_scale));
   if (!file.distortion.empty()) {
-    text += "distortion: [";
-    for (std::size_t i = 0; i < file.distortion.size(); ++i) {
-      char buffer[64];
-      std::snprintf(buffer, sizeof(buffer), "%s%.17g", i == 0 ? "" : ", ", file.distortion[i]);
-      text += buffer;
-    }
-    text += "]\n";
+    std::string list;
+    for (const double value : file.distortion) list += (list.empty() ? "[" : ", ") + shortest(value);
+    line("distortion", list + "]");
   }
-  if (file.fps > 0.0) line("fps", file.fps);
-  if (file.gamma > 0.0) line("gamma", file.gamma);
-  if (!file.vignette.empty()) text += "vignette: " + file.vignette + "\n";
+  if (file.fps > 0.0) line("fps", shortest(file.fps));
+  if (file.gamma > 0.0) line("gamma", shortest(file.gamma));
+  if (!file.vignette.empty()) line("vignette", quoted(file.vignette));
   write_file_atomically(path, text);
 }
 

@@ -28,7 +28,8 @@ CameraFile read_camera_file(const std::string& path);
 /// The same from text; `name` stands for the file in errors.
 CameraFile parse_camera_file(const std::string& name, const std::string& text);
 
-/// Writes width .. cy, depth_scale and what else is set; numbers with 17 digits, so that reading gives the same bits.
+/// Writes width .. cy, depth_scale and what else is set; numbers so that reading gives the same bits.
+/// InputError if the path cannot be written.
 void write_camera_file(const std::string& path, const CameraFile& file);
 
 }  // namespace odosplat

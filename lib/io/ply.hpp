@@ -5,61 +5,75 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
 namespace odosplat {
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+/// Values of one property, in the type the file has.
+using PlyColumn = std::variant<std::vector<std::int8_t>, std::vector<std::uint8_t>, std::vector<std::int16_t>,
+                               std::vector<std::uint16_t>, std::vector<std::int32_t>, std::vector<std::uint32_t>,
+                               std::vector<float>, std::vector<double>>;
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::float32;
-  std::size_t offset = 0;  // of the value in a row [bytes]
+  PlyColumn values;
 };
 
-/// A table of `count` rows. Lists (faces) are read over and dropped: only the scalar properties are kept.
+/// One element of a PLY file ("vertex"): a table of scalar properties. List properties are read past, not kept.
 struct PlyElement {
   std::string name;
-  std::size_t count = 0;
+  std::size_t count = 0;  // rows
   std::vector<PlyProperty> properties;
-  std::size_t stride = 0;           // [bytes] a row
-  std::vector<unsigned char> rows;  // count * stride, values in this machine's byte order
 
   bool has(const std::string& property) const { return find(property) != nullptr; }
-  const PlyProperty* find(const std::string& property) const;
-  /// All values of a property, converted; integers keep their value (255 stays 255). std::out_of_range if it is not
-  /// there.
-  std::vector<float> column(const std::string& property) const;
-  std::vector<double> column_double(const std::string& property) const;
+  /// nullptr if there is none.
+  const PlyColumn* find(const std::string& property) const;
+  /// Appends a column; its length must be `count`, or sets `count` if it is the first. std::invalid_argument otherwise.
+  void add(const std::string& property, PlyColumn values);
 };
 
-struct PlyFile {
-  std::vector<std::string> comments;
+/// A PLY file in memory (Turk 1994: ascii, binary_little_endian, binary_big_endian, version 1.0).
+struct Ply {
+  std::string file;                   // name for errors
+  std::vector<std::string> comments;  // the text behind "comment " and "obj_info "
   std::vector<PlyElement> elements;
 
-  /// Null if there is no such element.
-  const PlyElement* find(const std::string& element) const;
+  bool has(const std::string& element) const;
+  /// InputError naming the file if there is none of that name.
+  const PlyElement& element(const std::string& element_name) const;
+
+  /// A property as vector<T>, converted by static_cast. InputError naming file, element and property if missing.
+  template <typename T>
+  std::vector<T> column(const std::string& element_name, const std::string& property) const {
+    return std::visit(
+        [](const auto& values) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(values)>, std::vector<T>>) {
+            return values;
+          } else {
+            std::vector<T> converted(values.size());
+            for (std::size_t i = 0; i < values.size(); ++i) converted[i] = static_cast<T>(values[i]);
+            return converted;
+          }
+        },
+        values_of(element_name, property));
+  }
+
+ private:
+  const PlyColumn& values_of(const std::string& element_name, const std::string& property) const;
 };
 
-/// Reads a PLY 1.0 file: ascii, binary_little_endian, binary_big_endian; any scalar types by either of their names.
-/// Throws InputError(file, place, fault): not a PLY, a header that is not closed or not understood, a value that is no
-/// number, fewer rows than the header promises (it says how many there are), a list that reaches past the end. Never
-/// allocates more than a small multiple of the file's size, whatever the header promises. Bytes after the last element
-/// are ignored.
-PlyFile read_ply(const std::string& path);
-/// The same from bytes; `name` stands for the file in errors.
-PlyFile parse_ply(const std::string& name, const std::string& bytes);
+/// Reads a whole file. Never allocates more than the file's size justifies. Throws InputError: not a PLY file, a header
+/// line that is not understood, a header that promises more rows than the file holds (says how many it holds), an ascii
+/// value that does not fit its type. NaN and infinite values are kept: what they mean is the caller's business. Bytes
+/// behind the last element are ignored.
+Ply read_ply(const std::string& path);
+/// The same from memory; `name` stands for the file in errors.
+Ply parse_ply(const std::string& name, const std::string& bytes);
 
-/// A property to write; all columns of a file have the same length.
-struct PlyColumn {
-  std::string name;
-  std::variant<std::vector<float>, std::vector<std::uint8_t>> values;
-};
-
-/// Writes one element as binary little endian, beside and renamed. Comments must not hold line breaks.
-/// std::logic_error if the columns differ in length.
-void write_ply(const std::string& path, const std::vector<std::string>& comments, const std::string& element,
-               const std::vector<PlyColumn>& columns);
+/// Writes binary_little_endian, beside the path and renamed. std::invalid_argument if columns of an element differ in
+/// length or a name holds blanks; InputError if the path cannot be written.
+void write_ply(const std::string& path, const Ply& ply);
 
 }  // namespace odosplat

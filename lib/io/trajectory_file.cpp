@@ -33,6 +33,7 @@ class Lines {
   }
 
   const std::vector<Line>& all() const { return lines_; }
+  const std::string& name() const { return name_; }
 
   [[noreturn]] void fail(const Line& line, const std::string& fault) const {
     throw InputError(name_, "line " + std::to_string(line.number), fault);
@@ -80,12 +81,28 @@ SE3 pose_from_rows(const Lines& lines, const Line& line, const std::vector<doubl
 StampedPose tum_pose(const Lines& lines, const Line& line) {
   const std::vector<double>& v = line.values;
   const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);
-  if (q.norm() < 1e-6) lines.fail(line, "the quaternion has length zero");
-  StampedPose pose;
-  pose.time = v[0];
-  pose.time_text = line.first;
-  pose.T_world_camera = SE3(q, Eigen::Vector3d(v[1], v[2], v[3]));
-  return pose;
+  // Eigen's norm squares: values beyond 1e150 would overflow it.
+  const double length = q.coeffs().stableNorm();
+  if (!(length > 1e-6 && length < 1e6))
+    lines.fail(line,
+               "the quaternion has length " + (length < 1.0 ? std::string("zero") : std::string("beyond reason")));
+  return {v[0], SE3(q, Eigen::Vector3d(v[1], v[2], v[3])), line.first};
+}
+
+// `rows` lines of four values, from line `first` on, one behind the other.
+std::vector<double> matrix_rows(const Lines& lines, std::size_t first, std::size_t rows) {
+  const std::vector<Line>& all = lines.all();
+  if (all.size() - first < rows) lines.fail(all.back(), "the last matrix is not complete");
+  std::vector<double> values;
+  for (std::size_t r = first; r < first + rows; ++r) {
+    if (all[r].values.size() != 4) lines.fail(all[r], "expected the 4 values of a matrix row");
+    values.insert(values.end(), all[r].values.begin(), all[r].values.end());
+  }
+  return values;
+}
+
+StampedPose numbered_pose(std::size_t number, const SE3& T_world_camera) {
+  return {static_cast<double>(number), T_world_camera, std::to_string(number)};
 }
 
 Trajectory redwood_log(const Lines& lines) {
@@ -93,17 +110,17 @@ Trajectory redwood_log(const Lines& lines) {
   Trajectory trajectory;
   for (std::size_t i = 0; i < all.size(); i += 5) {
     if (all[i].values.size() != 3) lines.fail(all[i], "expected `i j k` before a matrix");
-    if (i + 4 >= all.size()) lines.fail(all.back(), "the last matrix is not complete");
-    std::vector<double> rows;
-    for (std::size_t r = 1; r <= 4; ++r) {
-      if (all[i + r].values.size() != 4) lines.fail(all[i + r], "expected 4 values of a matrix row");
-      rows.insert(rows.end(), all[i + r].values.begin(), all[i + r].values.end());
-    }
-    StampedPose pose;
-    pose.time = all[i].values[0];
-    pose.time_text = all[i].first;
-    pose.T_world_camera = pose_from_rows(lines, all[i + 1], rows);
-    trajectory.push_back(pose);
+    const std::vector<double> rows = matrix_rows(lines, i + 1, 4);
+    trajectory.push_back({all[i].values[0], pose_from_rows(lines, all[i + 1], rows), all[i].first});
+  }
+  return trajectory;
+}
+
+Trajectory pose_in_three_rows(const Lines& lines) {
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < lines.all().size(); i += 3) {
+    const SE3 pose = pose_from_rows(lines, lines.all()[i], matrix_rows(lines, i, 3));
+    trajectory.push_back(numbered_pose(trajectory.size(), pose));
   }
   return trajectory;
 }
@@ -119,11 +136,7 @@ Trajectory pose_a_line(const Lines& lines) {
     if (width == 8) {
       trajectory.push_back(tum_pose(lines, line));
     } else if (width == 12 || width == 16) {
-      StampedPose pose;
-      pose.time = static_cast<double>(trajectory.size());
-      pose.time_text = std::to_string(trajectory.size());
-      pose.T_world_camera = pose_from_rows(lines, line, line.values);
-      trajectory.push_back(pose);
+      trajectory.push_back(numbered_pose(trajectory.size(), pose_from_rows(lines, line, line.values)));
     } else {
       lines.fail(line, "has " + std::to_string(width) + " values; a pose has 8 (TUM), 12 (KITTI) or 16");
     }
@@ -131,10 +144,12 @@ Trajectory pose_a_line(const Lines& lines) {
   return trajectory;
 }
 
-void require_ascending(const std::string& name, const Trajectory& trajectory) {
+// A pose starts every `lines_a_pose` lines.
+void require_ascending(const Lines& lines, std::size_t lines_a_pose, const Trajectory& trajectory) {
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     if (!(trajectory[i].time > trajectory[i - 1].time)) {
-      throw InputError(name, "pose " + std::to_string(i + 1), "time " + trajectory[i].stamp() + " does not grow");
+      lines.fail(lines.all()[i * lines_a_pose],
+                 "time " + trajectory[i].stamp() + " is not after " + trajectory[i - 1].stamp());
     }
   }
 }
@@ -149,7 +164,7 @@ void set_times(const std::string& times_path, Trajectory& trajectory) {
     trajectory[i].time = lines.all()[i].values[0];
     trajectory[i].time_text = lines.all()[i].first;
   }
-  require_ascending(times_path, trajectory);
+  require_ascending(lines, 1, trajectory);
 }
 
 }  // namespace
@@ -157,10 +172,23 @@ void set_times(const std::string& times_path, Trajectory& trajectory) {
 Trajectory parse_trajectory(const std::string& name, const std::string& text) {
   const Lines lines(name, text);
   if (lines.all().empty()) throw InputError(name, "holds no pose");
-  Trajectory trajectory = lines.all().front().values.size() == 3 ? redwood_log(lines) : pose_a_line(lines);
-  require_ascending(name, trajectory);
+  const std::size_t first = lines.all().front().values.size();
+  const bool log = first == 3;
+  const bool rows = first == 4;
+  Trajectory trajectory = log ? redwood_log(lines) : rows ? pose_in_three_rows(lines) : pose_a_line(lines);
+  require_ascending(lines, log ? 5 : rows ? 3 : 1, trajectory);
   return trajectory;
 }
+
+SE3 parse_pose_matrix(const std::string& name, const std::string& text) {
+  const Lines lines(name, text);
+  if (lines.all().size() != 4) {
+    throw InputError(name, "holds " + std::to_string(lines.all().size()) + " lines of numbers, a 4x4 matrix has 4");
+  }
+  return pose_from_rows(lines, lines.all().front(), matrix_rows(lines, 0, 4));
+}
+
+SE3 read_pose_matrix(const std::string& path) { return parse_pose_matrix(path, read_file(path)); }
 
 Trajectory read_trajectory(const std::string& path, const std::string& times_path) {
   Trajectory trajectory = parse_trajectory(path, read_file(path));

@@ -12,6 +12,7 @@ namespace odosplat {
 ///   8   TUM: time tx ty tz qx qy qz qw (quaternions need not be of unit length)
 ///   12  KITTI: the upper 3x4 of the matrix, row by row; the times are in `times_path`, one a line, or 0, 1, 2, ...
 ///   16  a whole 4x4 matrix a line (Replica), times as for 12
+///   4   three rows of four a pose (ICL-NUIM gt.sim), times 0, 1, 2, ...
 ///   3 then 4 x 4   Redwood's log: "i j k" and four rows of four; time = i
 /// Lines that start with # and empty lines are skipped; values are separated by blanks, tabs or commas.
 /// Throws InputError(file, "line N", fault): a value that is no number, NaN or infinite, too few or too many values, a
@@ -20,6 +21,10 @@ namespace odosplat {
 Trajectory read_trajectory(const std::string& path, const std::string& times_path = "");
 /// The same from text; `name` stands for the file in errors.
 Trajectory parse_trajectory(const std::string& name, const std::string& text);
+
+/// A single pose as four rows of four values (7-Scenes). Errors as above.
+SE3 read_pose_matrix(const std::string& path);
+SE3 parse_pose_matrix(const std::string& name, const std::string& text);
 
 /// TUM format, 9 decimals, stamps as StampedPose::stamp(); written beside and renamed. An empty trajectory gives a file
 /// with a comment line only.

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+// TUM RGB-D benchmark (Sturm et al., IROS 2012) and ICL-NUIM's PNG archive (Handa et al., ICRA 2014).
+#include <cmath>
+#include <utility>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/layouts.hpp"
+#include "odosplat/io/list_file.hpp"
+#include "odosplat/io/natural_order.hpp"
+#include "odosplat/io/trajectory_file.hpp"
+
+namespace odosplat {
+namespace {
+
+constexpr double tum_depth_scale = 5000.0;
+constexpr double tum_depth_tolerance = 0.02;  // [s]
+
+std::vector<double> times_of(const std::vector<ListedImage>& list) {
+  std::vector<double> times;
+  times.reserve(list.size());
+  for (const ListedImage& image : list) times.push_back(image.time);
+  return times;
+}
+
+// Files with that ending; the archive has one. Empty: none.
+std::string only_file_ending(const std::string& folder, const std::string& ending) {
+  std::string found;
+  for (const std::string& name : list_folder(folder)) {
+    if (!name.ends_with(ending)) continue;
+    if (!found.empty()) throw InputError(folder, "holds more than one *" + ending);
+    found = join(folder, name);
+  }
+  return found;
+}
+
+std::map<long long, SE3> icl_poses(const std::string& folder) {
+  const std::string freiburg = only_file_ending(folder, ".gt.freiburg");
+  if (!freiburg.empty()) return read_numbered_poses(freiburg);
+  const std::string sim = only_file_ending(folder, ".gt.sim");
+  std::map<long long, SE3> poses;
+  if (sim.empty()) return poses;
+  // The same poses without their numbers, which start at 1.
+  for (const auto& [number, pose] : read_numbered_poses(sim)) poses[number + 1] = pose;
+  return poses;
+}
+
+}  // namespace
+
+bool is_tum(const std::string& path) { return file_exists(join(path, "rgb.txt")); }
+bool is_icl(const std::string& path) { return file_exists(join(path, "associations.txt")); }
+
+SequenceIndex index_tum(const std::string& path, const SequenceOptions& options) {
+  SequenceIndex index;
+  const std::string color_list = join(path, "rgb.txt");
+  const std::vector<ListedImage> colors = parse_image_list(color_list, read_file(color_list));
+  if (colors.empty()) throw InputError(color_list, "lists no image");
+  choose_camera(options, {path}, std::nullopt, "", tum_depth_scale, index);
+  const std::string truth = join(path, "groundtruth.txt");
+  if (file_exists(truth)) index.truth = read_trajectory(truth);
+  for (const ListedImage& image : colors) {
+    index.frames.push_back({image.time, image.time_text, join(path, image.path), "", pose_at(index.truth, image.time)});
+  }
+  const std::string depth_list = join(path, "depth.txt");
+  if (file_exists(depth_list)) {
+    const std::vector<ListedImage> depths = parse_image_list(depth_list, read_file(depth_list));
+    for (const auto& [i, j] : associate_by_time(times_of(colors), times_of(depths), tum_depth_tolerance)) {
+      index.frames[i].depth = join(path, depths[j].path);
+    }
+  }
+  return index;
+}
+
+SequenceIndex index_icl(const std::string& path, const SequenceOptions& options) {
+  SequenceIndex index;
+  const std::string list = join(path, "associations.txt");
+  const std::vector<ListedPair> pairs = parse_pair_list(list, read_file(list));
+  if (pairs.empty()) throw InputError(list, "lists no image");
+  const CameraFile published = published_camera(640, 480, 481.2, -480.0, 319.5, 239.5, 5000.0);
+  choose_camera(options, {path}, published, "the published camera of ICL-NUIM", published.depth_scale, index);
+  NumberedFiles files;
+  for (const ListedPair& pair : pairs) {
+    if (pair.color_id != std::floor(pair.color_id) || std::abs(pair.color_id) > 1e15) {
+      throw InputError(list, "line " + std::to_string(pair.line), "the id is not a frame number");
+    }
+    const auto number = static_cast<long long>(pair.color_id);
+    files.color[number] = join(path, pair.color_path);
+    files.depth[number] = join(path, pair.depth_path);
+  }
+  files.poses = icl_poses(path);
+  fill_numbered(files, index);
+  return index;
+}
+
+}  // namespace odosplat

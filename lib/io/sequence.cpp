@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/io/sequence.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
+#include "odosplat/io/image_file.hpp"
+#include "odosplat/io/layouts.hpp"
+#include "odosplat/io/undistort.hpp"
+
+namespace odosplat {
+namespace {
+
+const Layout& layout_named(const std::string& name) {
+  std::string known;
+  for (const Layout& layout : layouts()) {
+    if (name == layout.name) return layout;
+    known += std::string(known.empty() ? "" : ", ") + layout.name;
+  }
+  throw InputError("--layout", "`" + name + "` is not known; known are " + known);
+}
+
+const Layout& detect(const std::string& path) {
+  std::string known;
+  for (const Layout& layout : layouts()) {
+    if (layout.matches(path)) return layout;
+    known += std::string(known.empty() ? "" : ", ") + layout.name + " (" + layout.signature + ")";
+  }
+  throw InputError(path, "no known layout; known are " + known);
+}
+
+// F T F with F = diag(1, -1, 1): the same motion seen with y turned round, in the camera and in the world.
+SE3 reflected(const SE3& T) {
+  const Eigen::Quaterniond& q = T.rotation();
+  const Eigen::Vector3d& t = T.translation();
+  return {Eigen::Quaterniond(q.w(), -q.x(), q.y(), -q.z()), Eigen::Vector3d(t.x(), -t.y(), t.z())};
+}
+
+double median_fps(const std::vector<FrameFiles>& frames) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < frames.size(); ++i) steps.push_back(frames[i].time - frames[i - 1].time);
+  if (steps.empty()) return default_fps;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return 1.0 / *middle;
+}
+
+std::string size_text(const cv::Size& size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
+
+std::string last_part(const std::string& path) {
+  const std::filesystem::path full = std::filesystem::absolute(path).lexically_normal();
+  return (full.has_filename() ? full : full.parent_path()).filename().string();
+}
+
+}  // namespace
+
+void SequenceOptions::check() const {
+  if (!layout.empty()) layout_named(layout);
+}
+
+struct Sequence::Data {
+  std::string name;
+  std::string layout;
+  SequenceIndex index;
+  double fps = default_fps;
+  Undistorter undistorter;
+
+  const FrameFiles& frame(std::size_t i) const {
+    if (i >= index.frames.size()) throw std::out_of_range("frame " + std::to_string(i) + " of " + name);
+    return index.frames[i];
+  }
+  cv::Size camera_size() const { return {index.camera.camera.width, index.camera.camera.height}; }
+
+  void require_camera_size(const std::string& file, const cv::Size& size) const {
+    if (size != camera_size()) {
+      throw InputError(file,
+                       "is " + size_text(size) + ", " + index.camera_source + " is for " + size_text(camera_size()));
+    }
+  }
+
+  void require_depth_size(const FrameFiles& files, const cv::Size& size) const {
+    if (size == camera_size()) return;
+    if (const cv::Size color = read_image_size(files.color); color != size) {
+      throw InputError(files.depth,
+                       "is " + size_text(size) + ", its colour image " + files.color + " is " + size_text(color));
+    }
+    require_camera_size(files.depth, size);
+  }
+
+  void require_files() {
+    bool any_depth = false;
+    bool wants_depth = false;
+    for (const FrameFiles& f : index.frames) {
+      if (!index.video && !file_exists(f.color)) throw InputError(f.color, "is missing");
+      wants_depth = wants_depth || !f.depth.empty();
+      any_depth = any_depth || (!f.depth.empty() && file_exists(f.depth));
+    }
+    if (wants_depth && !any_depth) {
+      log_debug(name + ": the listed depth files are not there; reading without depth");
+      for (FrameFiles& f : index.frames) f.depth.clear();
+    }
+  }
+};
+
+Sequence Sequence::open(const std::string& path, const SequenceOptions& options) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError(path, "is missing");
+  const Layout& layout = options.layout.empty() ? detect(path) : layout_named(options.layout);
+  auto data = std::make_shared<Data>();
+  data->name = last_part(path);
+  data->layout = layout.name;
+  data->index = layout.index(path, options);
+  SequenceIndex& index = data->index;
+  data->require_files();
+  if (index.camera.fy_sign < 0 && !options.as_stored) {
+    for (FrameFiles& f : index.frames) {
+      if (f.T_world_camera) f.T_world_camera = reflected(*f.T_world_camera);
+    }
+    for (StampedPose& pose : index.truth) pose.T_world_camera = reflected(pose.T_world_camera);
+  }
+  data->fps = index.camera.fps > 0.0 ? index.camera.fps : median_fps(index.frames);
+  data->undistorter = Undistorter(index.camera.camera, index.camera.distortion);
+  if (index.video) {
+    data->require_camera_size(path, index.video->frame_size());
+  } else {
+    data->require_camera_size(index.frames.front().color, read_image_size(index.frames.front().color));
+  }
+  return Sequence(std::move(data));
+}
+
+const std::string& Sequence::name() const { return data_->name; }
+const std::string& Sequence::layout() const { return data_->layout; }
+const Camera& Sequence::camera() const { return data_->index.camera.camera; }
+int Sequence::fy_sign() const { return data_->index.camera.fy_sign; }
+double Sequence::depth_scale() const { return data_->index.camera.depth_scale; }
+double Sequence::fps() const { return data_->fps; }
+std::size_t Sequence::size() const { return data_->index.frames.size(); }
+double Sequence::time(std::size_t i) const { return data_->frame(i).time; }
+const Trajectory& Sequence::truth() const { return data_->index.truth; }
+bool Sequence::has_depth(std::size_t i) const { return !data_->frame(i).depth.empty(); }
+GrayImage Sequence::gray(std::size_t i) const { return to_gray(color(i)); }
+
+std::string Sequence::time_text(std::size_t i) const {
+  const FrameFiles& frame = data_->frame(i);
+  return StampedPose{frame.time, {}, frame.time_text}.stamp();
+}
+
+std::optional<SE3> Sequence::T_world_camera(std::size_t i) const { return data_->frame(i).T_world_camera; }
+
+ColorImage Sequence::color(std::size_t i) const {
+  const FrameFiles& files = data_->frame(i);
+  ColorImage image;
+  if (data_->index.video) {
+    data_->index.video->frame(i).convertTo(image, CV_32F, 1.0 / 255.0);
+  } else {
+    image = read_color(files.color);
+    data_->require_camera_size(files.color, image.size());
+  }
+  return data_->undistorter.color(image);
+}
+
+DepthImage Sequence::depth(std::size_t i) const {
+  const FrameFiles& files = data_->frame(i);
+  if (files.depth.empty()) throw InputError(data_->name, "frame " + std::to_string(i), "has no depth image");
+  const cv::Mat1w raw = read_depth_raw(files.depth);
+  data_->require_depth_size(files, raw.size());
+  DepthImage depth(raw.size());
+  const double metres = 1.0 / data_->index.camera.depth_scale;
+  for (int y = 0; y < raw.rows; ++y) {
+    const std::uint16_t* from = raw[y];
+    float* to = depth[y];
+    for (int x = 0; x < raw.cols; ++x) to[x] = from[x] == 65535 ? 0.0F : static_cast<float>(from[x] * metres);
+  }
+  return data_->undistorter.depth(depth);
+}
+
+}  // namespace odosplat

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "odosplat/core/camera.hpp"
+#include "odosplat/core/image.hpp"
+#include "odosplat/core/trajectory.hpp"
+
+namespace odosplat {
+
+/// How a sequence is to be read.
+struct SequenceOptions {
+  std::string layout;       // "" = detect, or: tum icl redwood sevenscenes replica images video
+  std::string camera_file;  // camera.yaml that counts instead of the sequence's own and of the layout's calibration
+  bool as_stored = false;   // true: poses as the files have them even where fy is negative (for checking conventions)
+
+  /// Throws InputError for a layout that is not known.
+  void check() const;
+};
+
+/// A recorded sequence: images with times and, where the data set gives them, depth and true poses.
+///
+/// Layouts (path: a folder, or a video file; formats as their authors publish them):
+///   tum          rgb.txt, camera.yaml; if there, depth.txt and groundtruth.txt. Depth belongs to the colour image
+///   nearest
+///                in time, at most 0.02 s away as in TUM's own tool, each depth image to one colour image. Pose of a
+///                colour image: of equal stamp; else between the two poses around it if those are at most 0.1 s apart;
+///                else the nearest within 0.01 s; else none.
+///   icl          associations.txt (ids, depth first), *.gt.freiburg or *.gt.sim: image k has the pose with id k.
+///                481.2 -480 319.5 239.5, 5000 a metre.
+///   redwood      *-color, *-depth*, *-traj.txt or *.log: image number k has pose k. 525 525 319.5 239.5, 1000 a metre.
+///   sevenscenes  frame-NNNNNN.{color.png|color.jpg,depth.png,pose.txt} in the folder or in its one seq-NN.
+///                585 585 320 240, 1000 a metre.
+///   replica      results/frameN.jpg, results/depthN.png, traj.txt; cam_params.json there or one folder above.
+///   images       PNG and JPEG files in natural order (2 before 10), with a camera file. No poses, no depth.
+///   video        what OpenCV decodes, with a camera file. All frames are counted at opening.
+/// A camera.yaml in the folder counts instead of a calibration named above. Where only frame numbers are known, time is
+/// number / fps (30 if the camera file does not say).
+///
+/// Lens distortion of the camera file is removed as images are read: colour bilinear, depth nearest, same size and
+/// focal lengths; what the lens has not seen is 0. Where fy is negative (ICL-NUIM) poses are reflected,
+/// T' = F T F with F = diag(1, -1, 1), so that they belong to camera(), whose fy is positive.
+///
+/// Images are decoded when asked for and not kept. Colour files that are listed must exist; missing depth or truth is
+/// no error. Errors: InputError naming the file. Copies share the data. Const calls are thread safe.
+class Sequence {
+ public:
+  static Sequence open(const std::string& path, const SequenceOptions& options = {});
+
+  /// Last part of the path ("icl_office_kt3").
+  const std::string& name() const;
+  const std::string& layout() const;
+  /// Pinhole camera of the images as they are handed out.
+  const Camera& camera() const;
+  /// Sign of fy as the camera file or the layout declares it, 1 or -1.
+  int fy_sign() const;
+  /// Units of the depth files a metre.
+  double depth_scale() const;
+  /// Images a second: as the camera file says, else 1 / (median step of time).
+  double fps() const;
+
+  std::size_t size() const;
+  double time(std::size_t i) const;  // [s]
+  /// The time as the list wrote it, else with 6 decimals.
+  std::string time_text(std::size_t i) const;
+  std::optional<SE3> T_world_camera(std::size_t i) const;
+  /// Every pose that the data set gives, at its own rate, reflected like T_world_camera.
+  const Trajectory& truth() const;
+
+  /// RGB, 0..1. InputError if the file is damaged or of another size than the camera.
+  ColorImage color(std::size_t i) const;
+  /// Luma of color(i).
+  GrayImage gray(std::size_t i) const;
+  /// True if a depth image belongs to frame i; false for all if the folder holds none of the depth files.
+  bool has_depth(std::size_t i) const;
+  /// z [m], 0 = none; the values 0 and 65535 of a file are none. InputError if !has_depth(i), if the file is missing or
+  /// damaged, or if its size is not the colour image's.
+  DepthImage depth(std::size_t i) const;
+
+ private:
+  struct Data;
+  explicit Sequence(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace odosplat
