@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "odosplat/core/camera.hpp"
+#include "odosplat/core/image.hpp"
+#include "odosplat/core/se3.hpp"
+
+namespace odosplat {
+
+/// Posed depth images with what their files say about them.
+struct ConventionInput {
+  Camera camera;             // fy > 0; its sign as declared is fy_sign
+  int fy_sign = 1;           // +1 or -1
+  double depth_scale = 1.0;  // units a metre as declared
+  // One an image, as the files have them: neither inverted nor reflected. None: the files have no pose for it.
+  std::vector<std::optional<SE3>> T_world_camera;
+  // Depth of an image [m] by the declared depth_scale, 0 = none; called from one thread, two images at a time are kept.
+  std::function<DepthImage(std::size_t)> depth;
+};
+
+struct ConventionOptions {
+  int gap = 20;        // [frames] between the two images of a pair; less for short sequences, see check_conventions
+  int pairs = 32;      // pairs of images, spread evenly
+  int samples = 2000;  // pixels looked at a pair, on a regular grid
+  double min_overlap = 0.2;  // share of them that must land on depth in the other image
+  double max_error = 0.05;   // largest relative error of a convention that is believed
+  // Tried beside the declared scale: millimetres; TUM and ICL-NUIM; Replica as rendered for iMAP; tenths of a
+  // millimetre; KITTI.
+  std::vector<double> depth_scales = {1000.0, 5000.0, 6553.5, 10000.0, 256.0};
+
+  void check() const;
+};
+
+/// One way to read the data.
+struct Convention {
+  int fy_sign = 1;
+  bool inverted = false;  // the stored poses are T_camera_world
+  int id_shift = 0;       // image k belongs to the pose stored for image k + id_shift; -1, 0 or +1
+  double depth_scale = 1.0;
+  bool operator==(const Convention&) const = default;
+};
+
+/// A row of the table: how well the images agree under a convention.
+struct ConventionRow {
+  Convention convention;
+  double error_m = 0.0;             // [m] median over pairs of the pair's median |difference|, in the row's own metres
+  double relative_error = 0.0;      // the same of |difference| / depth; infinite if too few pairs overlap
+  double overlap = 0.0;             // mean share of pixels that land on depth
+  std::vector<double> pair_errors;  // relative, one a pair; NaN where the pair does not overlap or has no pose
+};
+
+/// What is said of one part of the convention.
+struct ConventionFinding {
+  std::string part;         // "fy", "poses", "id shift", "depth scale"
+  bool decided = false;     // the data tell this from every other value
+  bool as_declared = true;  // the value of the best row that cannot be told from the very best
+  std::string text;         // one sentence, empty if decided and as declared
+};
+
+struct ConventionReport {
+  std::vector<ConventionRow> rows;  // best first, by relative error
+  Convention declared;
+  Convention winner;
+  double winner_error_m = 0.0;
+  int gap = 0;                              // [frames] that was used
+  int pairs = 0;                            // that were used
+  bool believable = false;                  // the best error is below max_error
+  bool as_declared = false;                 // believable, and no part is found to differ
+  std::vector<ConventionFinding> findings;  // one a part
+  std::string verdict;                      // one line: whether the declared convention holds, and what does if not
+};
+
+/// Finds out from the data how fy, poses, numbering and depth scale are meant, by reprojection: pixels of image i are
+/// lifted with their depth, moved by the poses into image i + gap, and the depth found there (nearest pixel) is
+/// compared with their own. 2 signs of fy x poses as stored or inverted x 3 shifts x depth scales are tried. Reflected
+/// poses, F T F with F = diag(1, -1, 1), need no rows of their own: with fy > 0 they are the stored poses with fy < 0.
+/// Rows are judged by the error relative to depth: a scale that makes everything small would win in metres.
+///
+/// A value is called decided if its row beats the best row of every other value: on every pair together by half, or by
+/// 5 % and on so many single pairs that chance is ruled out (2.6 standard deviations of a coin). Among rows that the
+/// best does not beat, the one most like the declared convention is the winner: data that cannot tell do not accuse.
+///
+/// gap shrinks to half the sequence, and further by halves while no row has enough overlap. Throws InputError if there
+/// are fewer than two images with pose, if sizes of depth and camera differ, or if nothing overlaps at any gap.
+ConventionReport check_conventions(const ConventionInput& input, const ConventionOptions& options = {});
+
+/// "+480.0 as stored shift 0 scale 1000": the parts of a convention, for messages.
+std::string convention_text(const Convention& convention, const Camera& camera);
+
+/// The first max_rows rows, and the declared one if it is not among them, as aligned text: errors in mm and in % of
+/// depth, the winner marked *, the declared convention marked d.
+std::string convention_table(const ConventionReport& report, const Camera& camera, std::size_t max_rows = 12);
+
+}  // namespace odosplat

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/eval/convention_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+
+namespace odosplat {
+namespace {
+
+constexpr double clear_ratio = 1.5;
+constexpr double least_ratio = 1.05;
+constexpr double deviations = 2.6;
+
+std::string format(const char* pattern, double value) {
+  char text[64];
+  std::snprintf(text, sizeof(text), pattern, value);
+  return text;
+}
+
+std::string millimetres(double metres) { return std::isfinite(metres) ? format("%.1f mm", 1000.0 * metres) : "none"; }
+
+std::string fy_text(const Convention& c, const Camera& camera) { return format("%+.1f", c.fy_sign * camera.fy); }
+std::string poses_text(const Convention& c, const Camera& /*camera*/) { return c.inverted ? "inverted" : "as stored"; }
+std::string shift_text(const Convention& c, const Camera& /*camera*/) {
+  return c.id_shift == 0 ? "0" : format("%+.0f", c.id_shift);
+}
+std::string scale_text(const Convention& c, const Camera& /*camera*/) { return format("%g", c.depth_scale); }
+
+struct Part {
+  const char* name;
+  std::string (*text)(const Convention&, const Camera&);
+  bool (*same)(const Convention&, const Convention&);
+};
+
+const Part parts[] = {
+    {"fy", fy_text, [](const Convention& a, const Convention& b) { return a.fy_sign == b.fy_sign; }},
+    {"poses", poses_text, [](const Convention& a, const Convention& b) { return a.inverted == b.inverted; }},
+    {"id shift", shift_text, [](const Convention& a, const Convention& b) { return a.id_shift == b.id_shift; }},
+    {"depth scale", scale_text,
+     [](const Convention& a, const Convention& b) { return a.depth_scale == b.depth_scale; }},
+};
+
+int agreement(const Convention& a, const Convention& b) {
+  return static_cast<int>(
+      std::count_if(std::begin(parts), std::end(parts), [&](const Part& p) { return p.same(a, b); }));
+}
+
+std::string undecided_text(const Part& part, const ConventionRow& winner, const ConventionRow& other, bool as_declared,
+                           const Convention& declared, const Camera& camera) {
+  const auto share = [](const ConventionRow& row) {
+    return format("%.3g %% of the depth", 100.0 * row.relative_error);
+  };
+  const std::string denial =
+      as_declared ? "" : "not " + part.text(declared, camera) + " as the file says; what it is instead ";
+  return std::string(part.name) + ": " + denial + "not decidable from these images (" +
+         part.text(winner.convention, camera) + " errs by " + share(winner) + ", " +
+         part.text(other.convention, camera) + " by " + share(other) + ")";
+}
+
+std::string difference_text(const Part& part, const Convention& winner, const Convention& declared,
+                            const Camera& camera) {
+  std::string text = std::string(part.name) + ": the data want " + part.text(winner, camera) + ", the file says " +
+                     part.text(declared, camera);
+  if (&part == &parts[0]) {
+    text += " (or reflect the poses: F T F with F = diag(1, -1, 1))";
+  } else if (winner.id_shift != declared.id_shift && &part == &parts[2]) {
+    text += " (image k belongs to the pose of image k " + std::string(winner.id_shift > 0 ? "+" : "-") + " 1)";
+  }
+  return text;
+}
+
+}  // namespace
+
+bool beats(const ConventionRow& a, const ConventionRow& b) {
+  if (!std::isfinite(a.relative_error)) return false;
+  if (!std::isfinite(b.relative_error)) return true;
+  int common = 0;
+  int won = 0;
+  int lost = 0;
+  for (std::size_t i = 0; i < a.pair_errors.size(); ++i) {
+    if (std::isnan(a.pair_errors[i]) || std::isnan(b.pair_errors[i])) continue;
+    ++common;
+    won += a.pair_errors[i] < b.pair_errors[i];
+    lost += a.pair_errors[i] > b.pair_errors[i];
+  }
+  if (b.relative_error >= clear_ratio * a.relative_error) return won > lost || common == 0;
+  return b.relative_error >= least_ratio * a.relative_error && won - lost >= deviations * std::sqrt(common);
+}
+
+void judge_conventions(ConventionReport& report, const Camera& camera, double max_error) {
+  const ConventionRow& best = report.rows.front();
+  const ConventionRow* winner = &best;
+  for (const ConventionRow& row : report.rows) {
+    if (agreement(row.convention, report.declared) > agreement(winner->convention, report.declared) &&
+        std::isfinite(row.relative_error) && !beats(best, row)) {
+      winner = &row;
+    }
+  }
+  report.winner = winner->convention;
+  report.winner_error_m = winner->error_m;
+  report.believable = winner->relative_error <= max_error;
+
+  std::string differences;
+  std::string open;
+  for (const Part& part : parts) {
+    ConventionFinding finding;
+    finding.part = part.name;
+    finding.as_declared = part.same(report.winner, report.declared);
+    const auto other = std::find_if(report.rows.begin(), report.rows.end(), [&](const ConventionRow& row) {
+      return !part.same(row.convention, report.winner);
+    });
+    finding.decided = other == report.rows.end() || beats(*winner, *other);
+    if (!finding.decided) {
+      finding.text = undecided_text(part, *winner, *other, finding.as_declared, report.declared, camera);
+      open += "; " + finding.text;
+    } else if (!finding.as_declared) {
+      finding.text = difference_text(part, report.winner, report.declared, camera);
+      differences += (differences.empty() ? "" : "; ") + finding.text;
+    }
+    report.findings.push_back(finding);
+  }
+  report.as_declared = report.believable && report.winner == report.declared;
+  if (!report.believable) {
+    report.verdict = "no convention fits: the best errs by " + millimetres(winner->error_m) + ", " +
+                     format("%.1f %% of the depth", 100.0 * winner->relative_error);
+  } else if (report.as_declared) {
+    report.verdict = "the data agree with what is declared, to " + millimetres(winner->error_m) + open;
+  } else {
+    report.verdict = differences.empty() ? open.substr(2) : differences + open;
+  }
+}
+
+std::string convention_text(const Convention& convention, const Camera& camera) {
+  return "fy " + fy_text(convention, camera) + ", poses " + poses_text(convention, camera) + ", id shift " +
+         shift_text(convention, camera) + ", depth scale " + scale_text(convention, camera);
+}
+
+std::string convention_table(const ConventionReport& report, const Camera& camera, std::size_t max_rows) {
+  std::string table = "         fy  poses      id shift  depth scale   error mm   error %  overlap %\n";
+  for (std::size_t i = 0; i < report.rows.size(); ++i) {
+    const ConventionRow& row = report.rows[i];
+    const bool is_declared = row.convention == report.declared;
+    const bool is_winner = row.convention == report.winner;
+    if (i >= max_rows && !is_declared && !is_winner) continue;
+    char line[160];
+    const bool measured = std::isfinite(row.relative_error);
+    std::snprintf(line, sizeof(line), "%c%c %8s  %-9s  %8s  %11s  %9s  %8s  %9.1f\n", is_winner ? '*' : ' ',
+                  is_declared ? 'd' : ' ', fy_text(row.convention, camera).c_str(),
+                  poses_text(row.convention, camera).c_str(), shift_text(row.convention, camera).c_str(),
+                  scale_text(row.convention, camera).c_str(),
+                  measured ? format("%.2f", 1000.0 * row.error_m).c_str() : "-",
+                  measured ? format("%.3f", 100.0 * row.relative_error).c_str() : "-", 100.0 * row.overlap);
+    table += line;
+  }
+  return table;
+}
+
+}  // namespace odosplat

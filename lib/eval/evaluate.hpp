@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "odosplat/core/trajectory.hpp"
+#include "odosplat/eval/alignment.hpp"
+#include "odosplat/eval/association.hpp"
+#include "odosplat/eval/statistics.hpp"
+
+namespace odosplat {
+
+struct EvalOptions {
+  TrajectoryAlignment alignment = TrajectoryAlignment::none;
+  int delta = 1;                      // [frames] distance of the two poses of a relative error, in matched poses
+  bool all_pairs = false;             // relative errors from every pose, not only from 0, delta, 2 delta, ...
+  double max_time_difference = 0.01;  // [s] between matched poses
+  std::size_t frames = 0;             // frames there were to estimate; 0: see expected_frames()
+
+  void check() const;
+};
+
+struct EvalResult {
+  Statistics ate_m;    // absolute trajectory error: distance of the positions
+  Statistics are_deg;  // absolute rotation error
+  Statistics rte_m;    // relative translation error over delta frames; empty if there are fewer matched poses
+  Statistics rre_deg;  // relative rotation error over delta frames
+  std::size_t pairs = 0;
+  double coverage = 0.0;  // pairs / frames, 1 at most
+  TrajectoryAlignment alignment = TrajectoryAlignment::none;
+  Similarity truth_from_estimate;  // the alignment that was applied; its scale is 1 unless sim3
+  std::vector<Match> matches;
+  std::vector<double> position_errors_m;  // of each match
+};
+
+/// Judges an estimated trajectory by the true one. Both give T_world_camera [m]; only matched poses count.
+/// Source: Sturm et al. 2012, "A benchmark for the evaluation of RGB-D SLAM systems", section V, with the conventions
+/// of the public tool evo, whose figures these are: ATE is the error of the position (its `trans_part`), the relative
+/// error of poses i and j is (Q_i^-1 Q_j)^-1 (P_i^-1 P_j) with truth Q and estimate P, consecutive pairs do not overlap
+/// unless all_pairs. Differs: association is one to one; coverage says what share of the frames was judged. Throws
+/// InputError if no poses match, or if the alignment asked for is not determined.
+EvalResult evaluate(const Trajectory& estimate, const Trajectory& truth, const EvalOptions& options);
+
+}  // namespace odosplat

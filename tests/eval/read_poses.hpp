@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <Eigen/SVD>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "odosplat/core/trajectory.hpp"
+
+namespace odosplat {
+
+/// Poses of well-formed files: TUM (8 values a line) or KITTI (12 values; time = line number). The metrics are tested
+/// without the readers, and with truth that holds a stamp twice, as TUM's does.
+inline Trajectory read_poses(const std::string& path) {
+  Trajectory trajectory;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream text(line);
+    std::vector<double> v;
+    for (double value = 0.0; text >> value;) v.push_back(value);
+    StampedPose pose;
+    if (v.size() == 8) {
+      pose.time = v[0];
+      pose.T_world_camera = SE3(Eigen::Quaterniond(v[7], v[4], v[5], v[6]), Eigen::Vector3d(v[1], v[2], v[3]));
+    } else if (v.size() == 12) {
+      Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
+      for (int i = 0; i < 12; ++i) M(i / 4, i % 4) = v[static_cast<std::size_t>(i)];
+      pose.time = static_cast<double>(trajectory.size());
+      // Matrices of six digits are rotations to 1e-6 only: the nearest rotation loses least.
+      const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M.topLeftCorner<3, 3>(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+      pose.T_world_camera = SE3(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()), M.topRightCorner<3, 1>());
+    }
+    trajectory.push_back(pose);
+  }
+  return trajectory;
+}
+
+}  // namespace odosplat
