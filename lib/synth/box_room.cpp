@@ -34,7 +34,7 @@ Scene make_box_room(std::uint64_t seed) {
   builder.add_quad(dz, dx, dy, ceiling);
   builder.add_box({2.6F, 1.9F, 0.0F}, {3.2F, 2.5F, 0.9F}, south);
   builder.add_box({1.2F, 2.2F, 0.0F}, {1.9F, 2.7F, 0.5F}, west);
-  builder.add_cushion({2.0F, 1.9F, 0.25F}, {0.25F, 0.25F, 0.25F}, 1.0F, east, 24);
+  builder.add_cushion({2.0F, 1.9F, 0.25F}, {0.25F, 0.25F, 0.25F}, 1.0F, east, 12);
   return builder.build_unlit();
 }
 

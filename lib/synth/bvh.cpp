@@ -35,33 +35,31 @@ struct Bounds {
 struct Bvh::Traversal {
   explicit Traversal(const Ray& ray) : origin(ray.origin), t_min(ray.t_min) {
     // No component may be zero here: 0 times infinity, for an origin on a box's face, would be no number.
-    for (int i = 0; i < 3; ++i) inverse[i] = 1.0F / (ray.direction[i] == 0.0F ? 1e-20F : ray.direction[i]);
+    origin4 << ray.origin.array(), 0.0F;
+    inverse4[3] = 1.0F;
+    for (int i = 0; i < 3; ++i) inverse4[i] = 1.0F / (ray.direction[i] == 0.0F ? 1e-20F : ray.direction[i]);
     ray.direction.cwiseAbs().maxCoeff(&z);
     x = (z + 1) % 3;
     y = (z + 2) % 3;
-    scale = inverse[z];
+    scale = inverse4[z];
     shear_x = ray.direction[x] * scale;
     shear_y = ray.direction[y] * scale;
   }
 
   /// Ray parameter where the box is entered; infinity if it is missed or lies beyond t_max.
-  float enter(const Node& box, float t_max) const {
-    float t0 = t_min;
-    float t1 = t_max;
-    for (int i = 0; i < 3; ++i) {
-      const float a = (box.low[i] - origin[i]) * inverse[i];
-      const float b = (box.high[i] - origin[i]) * inverse[i];
-      const float near = a < b ? a : b;
-      const float far = a < b ? b : a;
-      t0 = near > t0 ? near : t0;
-      t1 = far < t1 ? far : t1;
-    }
+  // Three quarters of all time go here; GCC 12 would not inline it at -O2.
+  [[gnu::always_inline]] inline float enter(const Node& box, float t_max) const {
+    const Eigen::Array4f a = (box.low - origin4) * inverse4;
+    const Eigen::Array4f b = (box.high - origin4) * inverse4;
+    const float t0 = std::max(t_min, a.min(b).maxCoeff());
+    const float t1 = std::min(t_max, a.max(b).minCoeff());
     // Ize 2013: so much wider that rounding never loses a box.
     return t0 <= t1 * 1.000001F ? t0 : std::numeric_limits<float>::infinity();
   }
 
+  Eigen::Array4f origin4;  // the fourth lane is passive: boxes are endless there
+  Eigen::Array4f inverse4;
   Eigen::Vector3f origin;
-  Eigen::Vector3f inverse;
   float t_min;
   int x = 0;  // axes, z the longest of the direction
   int y = 1;
@@ -106,8 +104,9 @@ void Bvh::build(std::vector<Item>& items, int begin, int end, int depth) {
     bounds.add(items[static_cast<std::size_t>(i)].bounds);
     centres.add(items[static_cast<std::size_t>(i)].centre);
   }
-  nodes_[self].low = bounds.low;
-  nodes_[self].high = bounds.high;
+  constexpr float endless = std::numeric_limits<float>::max();
+  nodes_[self].low << bounds.low.array(), -endless;
+  nodes_[self].high << bounds.high.array(), endless;
   const int count = end - begin;
   auto make_leaf = [&] {
     nodes_[self].next = begin;
@@ -168,7 +167,7 @@ void Bvh::build(std::vector<Item>& items, int begin, int end, int depth) {
   build(items, split, end, depth + 1);
 }
 
-bool Bvh::intersect(const Packed& triangle, const Traversal& ray, float t_max, RayHit& hit) {
+inline bool Bvh::intersect(const Packed& triangle, const Traversal& ray, float t_max, RayHit& hit) {
   const Eigen::Vector3f a = triangle.p[0] - ray.origin;
   const Eigen::Vector3f b = triangle.p[1] - ray.origin;
   const Eigen::Vector3f c = triangle.p[2] - ray.origin;

@@ -43,10 +43,10 @@ class Bvh {
   bool any(const Ray& ray) const;
 
  private:
-  struct Node {  // an inner node has its left child behind it and its right child at `next`
-    Eigen::Vector3f low;
+  struct Node {          // an inner node has its left child behind it and its right child at `next`
+    Eigen::Array4f low;  // x, y, z and a lane that is never the tightest
+    Eigen::Array4f high;
     int next = 0;
-    Eigen::Vector3f high;
     int count = 0;  // > 0: a leaf of triangles next .. next + count - 1
   };
   struct Packed {

@@ -13,7 +13,9 @@ namespace odosplat {
 namespace {
 
 constexpr float pi = 3.14159265F;
+constexpr float nearest = 0.05F;      // [m] lights are kept from growing without bound
 constexpr float lift = 2e-3F;         // [m] above the surface, where light is gathered
+constexpr float gather_limit = 2.0F;  // brighter spots, close to a lamp, would come out as speckles
 constexpr float gather_width = 0.3F;  // [m] colours of other surfaces are averaged over this
 
 struct Texel {
@@ -71,7 +73,7 @@ Eigen::Vector3f direct_light(const Scene& scene, const Light& light, const Texel
       target = light.corner + r.x() * light.edge_u + r.y() * light.edge_v;
     }
     const Eigen::Vector3f to_light = target - origin;
-    const float distance2 = std::max(to_light.squaredNorm(), 1e-4F);
+    const float distance2 = std::max(to_light.squaredNorm(), nearest * nearest);
     const float distance = std::sqrt(distance2);
     const float cosine_here = to_light.dot(texel.normal) / distance;
     const float cosine_there = -to_light.dot(normal) / distance;
@@ -101,7 +103,7 @@ Eigen::Vector3f gathered_light(const Scene& scene, const Texel& texel, int sampl
     // The inside of a closed body brings no light.
     const auto& triangle = scene.content().triangles[static_cast<std::size_t>(hit.triangle)];
     if (triangle.normal_world.dot(direction) > 0.0F) continue;
-    sum += scene.albedo(hit, gather_width).cwiseProduct(scene.light(hit));
+    sum += scene.albedo(hit, gather_width).cwiseProduct(scene.light(hit).cwiseMin(gather_limit));
   }
   return sum / static_cast<float>(samples);
 }

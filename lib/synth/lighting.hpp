@@ -28,10 +28,10 @@ struct PatchFrame {
 };
 
 struct LightingOptions {
-  float texel_m = 0.06F;    // [m] distance of the points where light is stored, > 0
+  float texel_m = 0.07F;    // [m] distance of the points where light is stored, > 0
   int max_texels = 96;      // a side of a patch, 2..1024
-  int light_samples = 24;   // points on each light, 1..4096
-  int gather_samples = 48;  // directions for light from other surfaces, 1..4096
+  int light_samples = 16;   // points on each light, 1..4096
+  int gather_samples = 36;  // directions for light from other surfaces, 1..4096
   int bounces = 2;          // 0..8
   float exposure = 1.0F;    // radiance to the tone curve, > 0
 

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/synth/noise.hpp"
 
+#include <array>
 #include <cmath>
 #include <initializer_list>
 
@@ -15,10 +16,23 @@ int wrap(int i, int period) {
   return r < 0 ? r + period : r;
 }
 
+/// 256 unit vectors around the circle.
+const std::array<std::array<float, 2>, 256>& gradients() {
+  static const auto table = [] {
+    std::array<std::array<float, 2>, 256> t{};
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const float angle = static_cast<float>(i) * (6.2831853F / 256.0F);
+      t[i] = {std::cos(angle), std::sin(angle)};
+    }
+    return t;
+  }();
+  return table;
+}
+
 /// Gradient at a lattice point times the offset from it.
 float corner(int x, int y, float dx, float dy, std::uint32_t seed) {
-  const float angle = static_cast<float>(lattice_hash(x, y, seed) >> 8) * (6.2831853F / 16777216.0F);
-  return std::cos(angle) * dx + std::sin(angle) * dy;
+  const auto& g = gradients()[lattice_hash(x, y, seed) >> 24];
+  return g[0] * dx + g[1] * dy;
 }
 
 }  // namespace

@@ -24,4 +24,37 @@ ColorImage checker_pattern(int size, int cells, const Eigen::Vector3f& dark, con
 ColorImage marble_pattern(int size, int cells, const Eigen::Vector3f& low, const Eigen::Vector3f& middle,
                           const Eigen::Vector3f& high, std::uint32_t seed);
 
+/// Wood with grain along x, two tones. Tiles.
+ColorImage wood_pattern(int width, int height, const Eigen::Vector3f& dark, const Eigen::Vector3f& bright,
+                        std::uint32_t seed);
+
+/// A floor of planks along x, each with a tone, a grain and joints of its own. Tiles.
+ColorImage plank_pattern(int size, int planks, const Eigen::Vector3f& dark, const Eigen::Vector3f& bright,
+                         std::uint32_t seed);
+
+/// Painted plaster: one colour with faint unevenness. contrast: half the range of brightness, as a share of the
+/// colour. Tiles.
+ColorImage plaster_pattern(int size, const Eigen::Vector3f& color, float contrast, std::uint32_t seed);
+
+/// Bricks in stretcher bond, rows of them in an even number. Tiles.
+ColorImage brick_pattern(int width, int height, int columns, int rows, std::uint32_t seed);
+
+/// Woven cloth; stripes > 0 adds that many stripes of the second colour across x. Tiles.
+ColorImage cloth_pattern(int size, const Eigen::Vector3f& color, const Eigen::Vector3f& stripe, int stripes,
+                         std::uint32_t seed);
+
+/// An oriental carpet: border, field with a medallion and small motifs, pile noise. Does not tile.
+ColorImage carpet_pattern(int width, int height, std::uint32_t seed);
+
+/// Something to hang on a wall, of large and small detail: 0 landscape, 1 town, 2 abstract; other kinds count modulo 3.
+/// Does not tile.
+ColorImage picture_pattern(int width, int height, int kind, std::uint32_t seed);
+
+/// A book's back with bands and lines like lettering, in greys to be tinted. Does not tile.
+ColorImage book_pattern(int width, int height, std::uint32_t seed);
+
+/// What is seen from a window: over azimuth (x) and elevation (y, zenith on top) sky with clouds and a line of trees.
+/// Tiles in x.
+ColorImage outdoor_pattern(int width, int height, std::uint32_t seed);
+
 }  // namespace odosplat

@@ -12,10 +12,6 @@ namespace {
 
 constexpr float pi = 3.14159265F;
 
-/// sign(x) |x|^e, the building stone of superellipsoids. What is zero but for rounding stays zero, or small exponents
-/// would make it large.
-float signed_power(float x, float e) { return std::abs(x) < 1e-6F ? 0.0F : std::copysign(std::pow(std::abs(x), e), x); }
-
 }  // namespace
 
 int SceneBuilder::add_texture(const ColorImage& image, const Eigen::Vector2f& size_m, Texture::Edge edge) {
@@ -159,31 +155,32 @@ void SceneBuilder::add_cylinder(const Eigen::Vector3f& base, const Eigen::Vector
 
 void SceneBuilder::add_cushion(const Eigen::Vector3f& centre, const Eigen::Vector3f& radii, float exponent,
                                int material, int segments) {
-  // Longitude runs with u, latitude from the top down with v.
-  Surface surface;
-  surface.position = [=](float u, float v) -> Eigen::Vector3f {
-    const float around = 2.0F * pi * u;
-    const float up = pi * (0.5F - v);
-    const float ring = signed_power(std::cos(up), exponent);
-    return centre + radii.cwiseProduct(Eigen::Vector3f(ring * signed_power(std::cos(around), exponent),
-                                                       ring * signed_power(std::sin(around), exponent),
-                                                       signed_power(std::sin(up), exponent)));
+  require(exponent > 0.0F && exponent <= 1.0F, "cushion exponent", "in (0, 1]");
+  const float n = 2.0F / exponent;
+  // Six faces of a cube (corner and edges as in add_box) drawn onto |x|^n + |y|^n + |z|^n = 1.
+  struct Face {
+    Eigen::Vector3f corner, edge_u, edge_v;
   };
-  surface.normal = [=](float u, float v) -> Eigen::Vector3f {
-    const float around = 2.0F * pi * u;
-    const float up = pi * (0.5F - v);
-    const float e = 2.0F - exponent;
-    const float ring = signed_power(std::cos(up), e);
-    return Eigen::Vector3f(ring * signed_power(std::cos(around), e), ring * signed_power(std::sin(around), e),
-                           signed_power(std::sin(up), e))
-        .cwiseQuotient(radii)
-        .normalized();
-  };
-  surface.segments_u = 2 * segments;
-  surface.segments_v = segments;
-  surface.size_m = {4.0F * (radii.x() + radii.y()), 2.0F * (radii.z() + std::min(radii.x(), radii.y()))};
-  surface.material = material;
-  add_surface(surface);
+  const std::array<Face, 6> faces{Face{{-1, 1, 1}, {0, -2, 0}, {0, 0, -2}}, Face{{1, -1, 1}, {0, 2, 0}, {0, 0, -2}},
+                                  Face{{-1, -1, 1}, {2, 0, 0}, {0, 0, -2}}, Face{{1, 1, 1}, {-2, 0, 0}, {0, 0, -2}},
+                                  Face{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}}, Face{{-1, 1, 1}, {2, 0, 0}, {0, -2, 0}}};
+  for (const Face& face : faces) {
+    auto on_unit = [face, n](float u, float v) -> Eigen::Vector3f {
+      const Eigen::Vector3f cube = face.corner + u * face.edge_u + v * face.edge_v;
+      return cube / std::pow(cube.array().abs().pow(n).sum(), 1.0F / n);
+    };
+    Surface surface;
+    surface.position = [=](float u, float v) -> Eigen::Vector3f { return centre + radii.cwiseProduct(on_unit(u, v)); };
+    surface.normal = [=](float u, float v) -> Eigen::Vector3f {
+      const Eigen::Vector3f p = on_unit(u, v);
+      const Eigen::Array3f slope = p.array().sign() * p.array().abs().pow(n - 1.0F) / radii.array();
+      return slope.matrix().normalized();
+    };
+    surface.segments_u = surface.segments_v = segments;
+    surface.size_m = {face.edge_u.cwiseProduct(radii).norm(), face.edge_v.cwiseProduct(radii).norm()};
+    surface.material = material;
+    add_surface(surface);
+  }
 }
 
 void SceneBuilder::add_window_light(const Eigen::Vector3f& corner, const Eigen::Vector3f& edge_u,

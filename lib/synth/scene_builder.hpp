@@ -48,7 +48,8 @@ class SceneBuilder {
   /// Truncated cone from `base` (radius_base) to `top` (radius_top), with caps if asked.
   void add_cylinder(const Eigen::Vector3f& base, const Eigen::Vector3f& top, float radius_base, float radius_top,
                     int material, int segments, bool caps);
-  /// Superellipsoid (Barr 1981): exponent 1 is an ellipsoid, towards 0 a box with round edges (cushions).
+  /// Superellipsoid |x/a|^(2/e) + |y/b|^(2/e) + |z/c|^(2/e) = 1 (Barr 1981) of exponent e in (0, 1]: 1 is an ellipsoid,
+  /// towards 0 a box with round edges. Six faces of segments x segments cells, each with metric texture coordinates.
   void add_cushion(const Eigen::Vector3f& centre, const Eigen::Vector3f& radii, float exponent, int material,
                    int segments);
 
