@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <string>
 #include <vector>
 
 #include "odosplat/core/error.hpp"
@@ -102,6 +101,15 @@ Eigen::Quaternionf random_rotation(Random& random) {
 
 }  // namespace
 
+InitializeOptions InitializeOptions::preset(const std::string& name) {
+  InitializeOptions options;
+  if (name == "default") return options;
+  if (name != "paper") throw InputError("preset", "must be default or paper, is \"" + name + "\"");
+  options.shape = InitialShape::random;
+  options.scale_factor = 1.0F;
+  return options;
+}
+
 void InitializeOptions::check() const {
   require(sh_degree >= 0 && sh_degree <= 3, "sh_degree", "0..3");
   require(opacity > 0.0F && opacity < 1.0F, "opacity", "between 0 and 1");
@@ -122,8 +130,12 @@ Gaussians gaussians_from_cloud(const PointCloud& input, const InitializeOptions&
       options.budget > 0 && options.budget < input.size() ? choose(input, options.budget, random) : input;
   const std::vector<float> size = sizes(cloud, options);
   if (options.shape == InitialShape::discs) {
-    if (!cloud.has_normals()) estimate_normals(cloud, options.normal_neighbors);
-    if (options.smoothing_neighbors > 0) cloud.points = smooth(cloud, options.smoothing_neighbors);
+    const bool own_normals = cloud.has_normals();
+    if (!own_normals) estimate_normals(cloud, options.normal_neighbors);
+    if (options.smoothing_neighbors > 0) {
+      cloud.points = smooth(cloud, options.smoothing_neighbors);
+      if (!own_normals) estimate_normals(cloud, options.normal_neighbors);  // better ones, from better points
+    }
   }
 
   Gaussians gaussians;

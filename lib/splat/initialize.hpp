@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "odosplat/core/point_cloud.hpp"
 #include "odosplat/splat/gaussians.hpp"
@@ -24,11 +25,13 @@ struct InitializeOptions {
   float scale_factor = 0.6F;   // times that distance: standard deviation in the plane, > 0
   float flatness = 0.1F;       // discs: thickness over size, > 0, at most 1
   float largest_scale = 4.0F;  // sizes are held below this many times the median size, >= 1 (stray points)
-  int normal_neighbors = 12;   // neighbours of a normal, where the cloud has none, >= 3
-  int smoothing_neighbors = 12;  // discs: neighbours that a point is smoothed with along its normal, 0 = none
+  int normal_neighbors = 20;   // neighbours of a normal, where the cloud has none, >= 3
+  int smoothing_neighbors = 32;  // discs: neighbours that a point is smoothed with along its normal, 0 = none
   std::size_t budget = 0;        // at most this many Gaussians: a seeded random choice of the points; 0 = all of them
   std::uint64_t seed = 1;
 
+  /// "default", or "paper": random shapes as large as the neighbours' distance. Throws InputError else.
+  static InitializeOptions preset(const std::string& name);
   /// Throws InputError naming the field.
   void check() const;
 };

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/splat/map_file.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/ply.hpp"
+
+namespace odosplat {
+
+namespace {
+
+const std::string element_name = "vertex";
+
+/// One property of the file and where its values live: array[i * stride + offset].
+struct Field {
+  std::string name;
+  std::vector<float>* values;
+  std::size_t stride;
+  std::size_t offset;
+};
+
+/// The layout, in the order of the public programs; nx ny nz come between the first three and the rest.
+std::vector<Field> layout(Gaussians& gaussians) {
+  std::vector<Field> fields;
+  const char* axes[3] = {"x", "y", "z"};
+  for (std::size_t a = 0; a < 3; ++a) fields.push_back({axes[a], &gaussians.positions, 3, a});
+  const auto k = static_cast<std::size_t>(gaussians.coefficients());
+  for (std::size_t c = 0; c < 3; ++c) fields.push_back({"f_dc_" + std::to_string(c), &gaussians.sh, 3 * k, c});
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t j = 1; j < k; ++j)
+      fields.push_back({"f_rest_" + std::to_string(c * (k - 1) + j - 1), &gaussians.sh, 3 * k, 3 * j + c});
+  fields.push_back({"opacity", &gaussians.opacity_logits, 1, 0});
+  for (std::size_t a = 0; a < 3; ++a) fields.push_back({"scale_" + std::to_string(a), &gaussians.log_scales, 3, a});
+  for (std::size_t a = 0; a < 4; ++a) fields.push_back({"rot_" + std::to_string(a), &gaussians.rotations, 4, a});
+  return fields;
+}
+
+std::optional<int> degree_of(std::size_t rest) {
+  for (int degree = 0; degree <= 3; ++degree)
+    if (rest == 3 * static_cast<std::size_t>(sh_coefficients(degree) - 1)) return degree;
+  return std::nullopt;
+}
+
+Eigen::Vector3f shortest_axis(const Gaussians& gaussians, std::size_t i) {
+  const float* scale = gaussians.log_scales.data() + 3 * i;
+  const float* r = gaussians.rotations.data() + 4 * i;
+  const Eigen::Quaternionf q(r[0], r[1], r[2], r[3]);
+  if (!(q.norm() > 0.0F)) return Eigen::Vector3f::UnitZ();
+  return q.normalized() * Eigen::Vector3f::Unit(std::min_element(scale, scale + 3) - scale);
+}
+
+}  // namespace
+
+Gaussians read_map(const std::string& path) {
+  const Ply ply = read_ply(path);
+  const PlyElement& vertex = ply.element(element_name);
+  const auto rest = static_cast<std::size_t>(
+      std::count_if(vertex.properties.begin(), vertex.properties.end(),
+                    [](const PlyProperty& property) { return property.name.starts_with("f_rest_"); }));
+  const std::optional<int> degree = degree_of(rest);
+  if (!degree)
+    throw InputError(path, "header",
+                     "has " + std::to_string(rest) + " properties f_rest_*, must be 0, 9, 24 or 45 (SH degree 0 to 3)");
+  Gaussians gaussians;
+  gaussians.sh_degree = *degree;
+  gaussians.resize(vertex.count);
+  for (const Field& field : layout(gaussians)) {
+    const std::vector<float> column = ply.column<float>(element_name, field.name);
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      if (!std::isfinite(column[i]))
+        throw InputError(path, "Gaussian " + std::to_string(i), field.name + " is not finite");
+      (*field.values)[i * field.stride + field.offset] = column[i];
+    }
+  }
+  if (gaussians.empty()) throw InputError(path, "holds no Gaussians");
+  return gaussians;
+}
+
+void write_map(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
+  gaussians.check();
+  if (gaussians.empty()) throw InputError(path, "there are no Gaussians to write");
+  Ply ply;
+  ply.file = path;
+  ply.comments = {"odosplat map, format 1",
+                  "camera: x right, y down, z forward; pixel (0,0) is the centre of the top-left pixel; metres"};
+  ply.comments.insert(ply.comments.end(), notes.begin(), notes.end());
+
+  PlyElement vertex;
+  vertex.name = element_name;
+  const std::size_t n = gaussians.size();
+  std::array<std::vector<float>, 3> normals;
+  for (auto& axis : normals) axis.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3f normal = shortest_axis(gaussians, i);
+    for (std::size_t a = 0; a < 3; ++a) normals[a][i] = normal[static_cast<Eigen::Index>(a)];
+  }
+  Gaussians copy = gaussians;  // layout() names the arrays to write as well as to read
+  for (const Field& field : layout(copy)) {
+    std::vector<float> column(n);
+    for (std::size_t i = 0; i < n; ++i) column[i] = (*field.values)[i * field.stride + field.offset];
+    vertex.add(field.name, std::move(column));
+    if (field.name != "z") continue;
+    vertex.add("nx", std::move(normals[0]));
+    vertex.add("ny", std::move(normals[1]));
+    vertex.add("nz", std::move(normals[2]));
+  }
+  ply.elements.push_back(std::move(vertex));
+  write_ply(path, ply);
+}
+
+}  // namespace odosplat

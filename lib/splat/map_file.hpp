@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "odosplat/splat/gaussians.hpp"
+
+namespace odosplat {
+
+/// Reads Gaussians from a PLY file as 3D Gaussian Splatting programs write it (Kerbl et al. 2023), any encoding and any
+/// scalar types, properties in any order, of element `vertex`:
+///   x y z [m], f_dc_0..2, f_rest_0..(3K - 4) channel after channel (all of red first), opacity (logit),
+///   scale_0..2 (ln m), rot_0..3 (w x y z)
+/// with K = (degree + 1)^2 coefficients, degree 0..3. Other properties (nx ny nz) are ignored.
+/// Throws InputError naming the file and the fault: missing file or property, a number of f_rest that fits no degree, a
+/// value that is not finite (naming the Gaussian), no Gaussians, and what read_ply refuses.
+Gaussians read_map(const std::string& path);
+
+/// Writes that layout, binary little endian, floats, with nx ny nz = direction of the shortest axis (unit length, side
+/// arbitrary), so that readers of point clouds find normals. The header's comments name the format's version, the
+/// camera convention, and then the lines of `notes` (the training's settings; without line breaks).
+/// read_map() gives back the same bits. Written beside the path and renamed. Throws InputError if the path cannot be
+/// written, or if there are no Gaussians.
+void write_map(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes = {});
+
+}  // namespace odosplat

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/random.hpp"
+#include "odosplat/splat/map_file.hpp"
+
+namespace odosplat {
+namespace {
+
+using testing::HasSubstr;
+
+class MapFile : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+  /// what() of the InputError that reading `name` ends with; empty if it does not.
+  std::string fault(const std::string& name) const {
+    try {
+      read_map(path(name));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+  void write_text(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
+  std::string read_text(const std::string& name) const {
+    std::ifstream in(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+ private:
+  std::string folder_ =
+      (std::filesystem::temp_directory_path() / ("odosplat_map_" + std::to_string(getpid()))).string();
+};
+
+Gaussians random_gaussians(std::size_t n, int degree) {
+  Random random(3);
+  Gaussians g;
+  g.sh_degree = degree;
+  g.resize(n);
+  for (auto* part : {&g.positions, &g.log_scales, &g.rotations, &g.opacity_logits, &g.sh})
+    for (float& value : *part) value = static_cast<float>(random.normal());
+  return g;
+}
+
+TEST_F(MapFile, ReadsBackTheSameBitsForEveryDegree) {
+  for (int degree = 0; degree <= 3; ++degree) {
+    const Gaussians g = random_gaussians(17, degree);
+    write_map(path("map.ply"), g);
+    const Gaussians back = read_map(path("map.ply"));
+    EXPECT_EQ(back.sh_degree, degree);
+    EXPECT_EQ(back.positions, g.positions);
+    EXPECT_EQ(back.log_scales, g.log_scales);
+    EXPECT_EQ(back.rotations, g.rotations);
+    EXPECT_EQ(back.opacity_logits, g.opacity_logits);
+    EXPECT_EQ(back.sh, g.sh);
+  }
+}
+
+TEST_F(MapFile, HeaderIsThatOfPublicPrograms) {
+  write_map(path("map.ply"), random_gaussians(2, 1), {"iterations 3000", "seed 42"});
+  const std::string text = read_text("map.ply");
+  const std::string header = text.substr(0, text.find("end_header"));
+  EXPECT_THAT(header, HasSubstr("format binary_little_endian 1.0\n"));
+  EXPECT_THAT(header, HasSubstr("element vertex 2\n"));
+  EXPECT_THAT(header, HasSubstr("comment odosplat map, format 1\n"));
+  EXPECT_THAT(header, HasSubstr("comment camera: x right, y down, z forward"));
+  EXPECT_THAT(header, HasSubstr("comment iterations 3000\ncomment seed 42\n"));
+  std::string expected;
+  for (const std::string name : {"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"})
+    expected += "property float " + name + "\n";
+  for (int i = 0; i < 9; ++i) expected += "property float f_rest_" + std::to_string(i) + "\n";
+  for (const std::string name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
+    expected += "property float " + name + "\n";
+  EXPECT_THAT(header, HasSubstr(expected));
+  // 2 rows of 26 floats behind the header.
+  EXPECT_EQ(text.size(), text.find("end_header\n") + 11 + 2U * 26 * 4);
+}
+
+TEST_F(MapFile, RestOfHarmonicsIsChannelAfterChannel) {
+  Gaussians g = random_gaussians(1, 1);
+  for (std::size_t i = 0; i < 12; ++i) g.sh[i] = static_cast<float>(i);  // coefficient k, channel c: 3 k + c
+  write_map(path("map.ply"), g);
+  const std::string text = read_text("map.ply");
+  float row[26];
+  std::copy_n(text.data() + text.find("end_header\n") + 11, sizeof(row), reinterpret_cast<char*>(row));
+  EXPECT_THAT(std::vector<float>(row + 6, row + 18), testing::ElementsAre(0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11));
+}
+
+TEST_F(MapFile, NormalIsTheShortestAxis) {
+  Gaussians g = random_gaussians(1, 0);
+  g.log_scales = {-1.0F, -4.0F, -2.0F};
+  g.rotations = {2.0F, 0.0F, 0.0F, 2.0F};  // a quarter turn about z, not of unit length: y becomes -x
+  write_map(path("map.ply"), g);
+  const std::string text = read_text("map.ply");
+  float row[17];
+  std::copy_n(text.data() + text.find("end_header\n") + 11, sizeof(row), reinterpret_cast<char*>(row));
+  EXPECT_NEAR(row[3], -1.0F, 1e-6F);
+  EXPECT_NEAR(row[4], 0.0F, 1e-6F);
+  EXPECT_NEAR(row[5], 0.0F, 1e-6F);
+}
+
+const std::string ascii_properties =
+    "property double rot_0\nproperty float rot_1\nproperty float rot_2\nproperty float rot_3\n"
+    "property float x\nproperty float y\nproperty float z\n"
+    "property float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\n"
+    "property float opacity\nproperty float scale_0\nproperty float scale_1\nproperty float scale_2\n";
+
+TEST_F(MapFile, ReadsAsciiInAnyOrderAndType) {
+  write_text("map.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + ascii_properties +
+                            "end_header\n1 0 0 0 1.5 2.5 3.5 0.1 0.2 0.3 2 -4 -5 -6\n");
+  const Gaussians g = read_map(path("map.ply"));
+  EXPECT_EQ(g.sh_degree, 0);
+  EXPECT_THAT(g.positions, testing::ElementsAre(1.5F, 2.5F, 3.5F));
+  EXPECT_THAT(g.rotations, testing::ElementsAre(1, 0, 0, 0));
+  EXPECT_THAT(g.log_scales, testing::ElementsAre(-4, -5, -6));
+  EXPECT_THAT(g.opacity_logits, testing::ElementsAre(2));
+}
+
+TEST_F(MapFile, FaultsNameTheFile) {
+  EXPECT_THAT(fault("none.ply"), HasSubstr(path("none.ply")));
+
+  write_text("empty.ply", "ply\nformat ascii 1.0\nelement vertex 0\n" + ascii_properties + "end_header\n");
+  EXPECT_EQ(fault("empty.ply"), path("empty.ply") + ": holds no Gaussians");
+
+  write_text("missing.ply",
+             "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+             "z\nend_header\n1 2 3\n");
+  EXPECT_THAT(fault("missing.ply"), testing::AllOf(HasSubstr(path("missing.ply")), HasSubstr("f_dc_0")));
+
+  write_text("nan.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + ascii_properties +
+                            "end_header\n1 0 0 0 1.5 2.5 3.5 0.1 0.2 0.3 nan -4 -5 -6\n");
+  EXPECT_EQ(fault("nan.ply"), path("nan.ply") + ": Gaussian 0: opacity is not finite");
+
+  write_text("rest.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + ascii_properties +
+                             "property float f_rest_0\nend_header\n1 0 0 0 1.5 2.5 3.5 0.1 0.2 0.3 1 -4 -5 -6 0\n");
+  EXPECT_THAT(fault("rest.ply"), testing::AllOf(HasSubstr(path("rest.ply")), HasSubstr("f_rest")));
+
+  write_map(path("whole.ply"), random_gaussians(3, 2));
+  const std::string whole = read_text("whole.ply");
+  write_text("cut.ply", whole.substr(0, whole.size() - 7));
+  EXPECT_THAT(fault("cut.ply"), HasSubstr(path("cut.ply")));
+}
+
+TEST_F(MapFile, RefusesToWriteNothingOrNowhere) {
+  EXPECT_THROW(write_map(path("map.ply"), Gaussians{}), InputError);
+  EXPECT_FALSE(std::filesystem::exists(path("map.ply")));
+  EXPECT_THROW(write_map("/proc/odosplat/map.ply", random_gaussians(1, 0)), InputError);
+}
+
+}  // namespace
+}  // namespace odosplat
