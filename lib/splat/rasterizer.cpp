@@ -23,12 +23,13 @@ using compute::Kernel;
 using compute::Program;
 using compute::Range;
 
-// Pixels of a row that the tile shell handles at once.
+// Pixels of a row that the tile shell handles at once: on AVX-512, 8 cost 20 to 30 % more.
 constexpr int forward_width = 16;
 constexpr int backward_width = 16;
 constexpr int splat_floats = 12;  // SPLAT_VECTORS of four
 constexpr int box_floats = 8;
 constexpr std::size_t max_pixels = std::size_t{1} << 28;
+static_assert(RasterizerOptions{}.dilation == DILATION);
 
 std::string define(const std::string& name, int value) { return " -D " + name + "=" + std::to_string(value); }
 
