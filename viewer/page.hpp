@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "odosplat/core/image.hpp"
+#include "odosplat/viewer/color_map.hpp"
+
+namespace odosplat {
+
+enum class AlignX { left, center, right };
+enum class AlignY { top, middle, bottom };
+
+/// How a line of text sits at its point: size [px] is the font's em.
+struct TextStyle {
+  double size = 12.0;
+  AlignX x = AlignX::left;
+  AlignY y = AlignY::middle;
+  Rgb color{0, 0, 0};
+  bool vertical = false;  // turned by 90 degrees, read from below; x and y are those of the turned box
+};
+
+/// A white page of pixels on which figures are put together. Coordinates are [px], x right, y down, (0,0) the corner
+/// of the top-left pixel; what lies outside is cut off. Lines are smoothed. Not thread safe.
+class Page {
+ public:
+  explicit Page(cv::Size size) : pixels_(size, Rgb(255, 255, 255)) {}
+
+  int width() const { return pixels_.cols; }
+  int height() const { return pixels_.rows; }
+  const cv::Mat3b& pixels() const { return pixels_; }
+
+  /// The box that was drawn into (empty for blank text). `halo`: a rim of white around the letters, for text over
+  /// pictures.
+  cv::Rect text(const std::string& text, cv::Point2d at, const TextStyle& style, bool halo = false);
+  void line(cv::Point2d a, cv::Point2d b, double width, const Rgb& color);
+  void polyline(const std::vector<cv::Point2d>& points, double width, const Rgb& color);
+  /// Dashes and gaps of `period` / 2 each [px].
+  void dashed(const std::vector<cv::Point2d>& points, double width, const Rgb& color, double period);
+  void fill(const cv::Rect2d& box, const Rgb& color);
+  void frame(const cv::Rect2d& box, double width, const Rgb& color);
+  void disc(cv::Point2d center, double radius, const Rgb& color);
+  void hatch(const cv::Rect2d& box, int pitch);
+  /// Copies the picture, whose top-left corner comes to `at`.
+  void paste(const cv::Mat3b& picture, cv::Point at);
+
+ private:
+  cv::Mat3b pixels_;
+};
+
+/// A colour image as page pixels of `size`, by area means when it shrinks, else linearly.
+cv::Mat3b color_panel(const ColorImage& color, cv::Size size);
+
+/// Values low..high in the colours of a scale at `size`, nearest pixel; hatched where the value is not > 0 (with
+/// zero_is_valid: not >= 0) or not finite.
+cv::Mat3b value_panel(const cv::Mat1f& values, ColorScale scale, double low, double high, cv::Size size, int pitch,
+                      bool zero_is_valid);
+
+/// Size of a figure as asked for, with its height filled in where that is 0: width times `aspect`.
+/// Throws InputError unless width is 16..16384 and height 0 or 16..16384.
+cv::Size figure_size(cv::Size asked, double aspect);
+
+/// Font size [px] that is 5 points or more where the figure is printed half a column (4.3 cm) wide.
+double figure_font(cv::Size size);
+
+}  // namespace odosplat
