@@ -86,7 +86,7 @@ RasterScene needle_scene() {
     const double thin = random.uniform(-8.5, -6.0);
     const Eigen::Vector3d needle(random.uniform(-3.0, -1.0), thin, thin - 0.5);
     const Eigen::Vector3d disc(random.uniform(-3.0, -1.5), random.uniform(-3.0, -1.5), thin);
-    push(scene.gaussians, p, i % 2 == 0 ? needle : disc, random_quaternion(random), random.uniform(-1.0, 4.0), random);
+    push(scene.gaussians, p, i % 2 == 0 ? needle : disc, random_quaternion(random), random.uniform(-1.0, 9.0), random);
   }
   return scene;
 }
