@@ -27,6 +27,7 @@ struct Sample {
 };
 
 struct PairError {
+  bool tried = false;
   double absolute = not_a_number;
   double relative = not_a_number;
   double overlap = 0.0;
@@ -61,11 +62,34 @@ std::vector<Convention> all_conventions(const Convention& declared, const Conven
   return all;
 }
 
-std::vector<Pair> choose_pairs(const ConventionInput& input, int gap, int wanted) {
-  const auto step = static_cast<std::size_t>(gap);
+const SE3* pose_of(const ConventionInput& input, std::size_t image, int shift) {
+  const auto k = static_cast<std::ptrdiff_t>(image) + shift;
+  if (k < 0 || k >= static_cast<std::ptrdiff_t>(input.T_world_camera.size())) return nullptr;
+  const std::optional<SE3>& pose = input.T_world_camera[static_cast<std::size_t>(k)];
+  return pose ? &*pose : nullptr;
+}
+
+struct Gaps {
+  int min = 0;
+  int max = 0;
+};
+
+Gaps first_gaps(int images, int gap) {
+  if (images >= 2 * gap) return {gap, gap};
+  return {std::max(1, images / 3), std::max(1, images - 1)};
+}
+
+// Pairs of images that have poses: under every shift of the ids, or as they are numbered at least.
+std::vector<Pair> choose_pairs(const ConventionInput& input, const Gaps& gaps, int wanted, bool under_every_shift) {
   std::vector<Pair> possible;
-  for (std::size_t i = 0; i + step < input.T_world_camera.size(); ++i) {
-    if (input.T_world_camera[i] && input.T_world_camera[i + step]) possible.push_back({i, i + step});
+  for (int gap = gaps.min; gap <= gaps.max; ++gap) {
+    const auto step = static_cast<std::size_t>(gap);
+    const auto usable = [&](std::size_t i, int shift) {
+      return pose_of(input, i, shift) && pose_of(input, i + step, shift);
+    };
+    for (std::size_t i = 0; i + step < input.T_world_camera.size(); ++i) {
+      if (usable(i, 0) && (!under_every_shift || (usable(i, -1) && usable(i, 1)))) possible.push_back({i, i + step});
+    }
   }
   const auto count = std::min(possible.size(), static_cast<std::size_t>(wanted));
   std::vector<Pair> pairs;
@@ -86,19 +110,13 @@ std::vector<Sample> take_samples(const DepthImage& depth, const Camera& camera, 
   return samples;
 }
 
-const SE3* pose_of(const ConventionInput& input, std::size_t image, int shift) {
-  const auto k = static_cast<std::ptrdiff_t>(image) + shift;
-  if (k < 0 || k >= static_cast<std::ptrdiff_t>(input.T_world_camera.size())) return nullptr;
-  const std::optional<SE3>& pose = input.T_world_camera[static_cast<std::size_t>(k)];
-  return pose ? &*pose : nullptr;
-}
-
 PairError reproject(const ConventionInput& input, const Pair& pair, const std::vector<Sample>& samples,
                     const DepthImage& depth_to, const Convention& convention, double min_overlap) {
   PairError error;
   const SE3* from = pose_of(input, pair.from, convention.id_shift);
   const SE3* to = pose_of(input, pair.to, convention.id_shift);
-  if (!from || !to || samples.empty()) return error;
+  error.tried = from && to;
+  if (!error.tried || samples.empty()) return error;
   SE3 T_to_from = convention.inverted ? *to * from->inverse() : to->inverse() * *from;
   if (convention.fy_sign < 0) T_to_from = reflect(T_to_from);
   const double metres = input.depth_scale / convention.depth_scale;
@@ -156,13 +174,16 @@ std::vector<ConventionRow> measure(const ConventionInput& input, const std::vect
     row.convention = conventions[c];
     std::vector<double> absolute;
     std::vector<double> relative;
+    std::size_t tried = 0;
     for (const PairError& e : errors[c]) {
+      tried += e.tried;
       row.pair_errors.push_back(e.relative);
       row.overlap += e.overlap / static_cast<double>(pairs.size());
       if (std::isnan(e.relative)) continue;
       absolute.push_back(e.absolute);
       relative.push_back(e.relative);
     }
+    row.tried = 2 * tried >= pairs.size();
     const bool enough = !relative.empty() && 2 * relative.size() >= pairs.size();
     row.error_m = enough ? median_of(absolute) : infinity;
     row.relative_error = enough ? median_of(relative) : infinity;
@@ -197,17 +218,23 @@ ConventionReport check_conventions(const ConventionInput& input, const Conventio
   report.declared = {input.fy_sign, false, 0, input.depth_scale};
   const std::vector<Convention> conventions = all_conventions(report.declared, options);
   const int images = static_cast<int>(input.T_world_camera.size());
-  for (report.gap = std::min(options.gap, std::max(1, images / 2));; report.gap /= 2) {
-    if (report.gap == 0) {
-      throw InputError("sequence", "no two images see the same surfaces under any convention: nothing to judge by");
+  const auto try_gaps = [&](bool under_every_shift) {
+    for (Gaps gaps = first_gaps(images, options.gap); gaps.min >= 1; gaps = {gaps.min / 2, gaps.max / 2}) {
+      const std::vector<Pair> pairs = choose_pairs(input, gaps, options.pairs, under_every_shift);
+      if (pairs.empty()) continue;
+      report.gap = gaps.min;
+      report.max_gap = gaps.max;
+      report.pairs = static_cast<int>(pairs.size());
+      report.rows = measure(input, conventions, pairs, options);
+      if (std::any_of(report.rows.begin(), report.rows.end(),
+                      [](const ConventionRow& row) { return std::isfinite(row.relative_error); })) {
+        return true;
+      }
     }
-    const std::vector<Pair> pairs = choose_pairs(input, report.gap, options.pairs);
-    if (pairs.empty()) continue;
-    report.pairs = static_cast<int>(pairs.size());
-    report.rows = measure(input, conventions, pairs, options);
-    const bool any = std::any_of(report.rows.begin(), report.rows.end(),
-                                 [](const ConventionRow& row) { return std::isfinite(row.relative_error); });
-    if (any) break;
+    return false;
+  };
+  if (!try_gaps(true) && !try_gaps(false)) {
+    throw InputError("sequence", "no two images see the same surfaces under any convention: nothing to judge by");
   }
   std::stable_sort(report.rows.begin(), report.rows.end(),
                    [](const ConventionRow& a, const ConventionRow& b) { return a.relative_error < b.relative_error; });

@@ -19,16 +19,18 @@ struct ConventionInput {
   Camera camera;             // fy > 0; its sign as declared is fy_sign
   int fy_sign = 1;           // +1 or -1
   double depth_scale = 1.0;  // units a metre as declared
-  // One an image, as the files have them: neither inverted nor reflected. None: the files have no pose for it.
+  // One a depth image, at the depth's own time, as the files have them: neither inverted nor reflected. None: the files
+  // have no pose for it.
   std::vector<std::optional<SE3>> T_world_camera;
-  // Depth of an image [m] by the declared depth_scale, 0 = none; called from one thread, two images at a time are kept.
+  // Depth of an image [m] by the declared depth_scale, 0 = none; called from one thread; of the images two at a
+  // time are kept.
   std::function<DepthImage(std::size_t)> depth;
 };
 
 struct ConventionOptions {
-  int gap = 20;        // [frames] between the two images of a pair; less for short sequences, see check_conventions
-  int pairs = 32;      // pairs of images, spread evenly
-  int samples = 2000;  // pixels looked at a pair, on a regular grid
+  int gap = 20;              // [frames] between the two images of a pair; others for short sequences, see below
+  int pairs = 32;            // pairs of images, spread evenly
+  int samples = 2000;        // pixels looked at a pair, on a regular grid
   double min_overlap = 0.2;  // share of them that must land on depth in the other image
   double max_error = 0.05;   // largest relative error of a convention that is believed
   // Tried beside the declared scale: millimetres; TUM and ICL-NUIM; Replica as rendered for iMAP; tenths of a
@@ -53,6 +55,7 @@ struct ConventionRow {
   double error_m = 0.0;             // [m] median over pairs of the pair's median |difference|, in the row's own metres
   double relative_error = 0.0;      // the same of |difference| / depth; infinite if too few pairs overlap
   double overlap = 0.0;             // mean share of pixels that land on depth
+  bool tried = false;               // there are poses for at least half the pairs
   std::vector<double> pair_errors;  // relative, one a pair; NaN where the pair does not overlap or has no pose
 };
 
@@ -69,7 +72,8 @@ struct ConventionReport {
   Convention declared;
   Convention winner;
   double winner_error_m = 0.0;
-  int gap = 0;                              // [frames] that was used
+  int gap = 0;                              // [frames] that was used: the smallest ...
+  int max_gap = 0;                          // ... and the largest
   int pairs = 0;                            // that were used
   bool believable = false;                  // the best error is below max_error
   bool as_declared = false;                 // believable, and no part is found to differ
@@ -83,12 +87,17 @@ struct ConventionReport {
 /// poses, F T F with F = diag(1, -1, 1), need no rows of their own: with fy > 0 they are the stored poses with fy < 0.
 /// Rows are judged by the error relative to depth: a scale that makes everything small would win in metres.
 ///
-/// A value is called decided if its row beats the best row of every other value: on every pair together by half, or by
-/// 5 % and on so many single pairs that chance is ruled out (2.6 standard deviations of a coin). Among rows that the
-/// best does not beat, the one most like the declared convention is the winner: data that cannot tell do not accuse.
+/// A row beats another if, over the pairs that both have, it errs three times less, or 5 % less and less on so many
+/// single pairs that chance is ruled out (2.6 standard deviations of a coin, so on 7 pairs at least). Among the rows
+/// that the best row does not beat, the one most like the declared convention is the winner: data that cannot tell do
+/// not accuse. A part of the winner is called decided if the winner beats every row that differs from it in this part
+/// and in at most one other; three mistakes at once that fit by chance are not considered. A row that could not be
+/// tried, because the poses it needs are not there, is not beaten.
 ///
-/// gap shrinks to half the sequence, and further by halves while no row has enough overlap. Throws InputError if there
-/// are fewer than two images with pose, if sizes of depth and camera differ, or if nothing overlaps at any gap.
+/// A sequence shorter than twice the gap is used in pairs of every gap from a third of its length up, so that few
+/// images say as much as they can. Pairs that can be tried under every shift are preferred, and gaps are halved while
+/// no row has enough overlap. Throws InputError if there are fewer than two images with pose, if sizes of depth and
+/// camera differ, or if nothing overlaps at any gap.
 ConventionReport check_conventions(const ConventionInput& input, const ConventionOptions& options = {});
 
 /// "+480.0 as stored shift 0 scale 1000": the parts of a convention, for messages.

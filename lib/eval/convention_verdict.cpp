@@ -7,10 +7,12 @@
 #include <cstdio>
 #include <iterator>
 
+#include "odosplat/eval/statistics.hpp"
+
 namespace odosplat {
 namespace {
 
-constexpr double clear_ratio = 1.5;
+constexpr double clear_ratio = 3.0;
 constexpr double least_ratio = 1.05;
 constexpr double deviations = 2.6;
 
@@ -51,13 +53,14 @@ int agreement(const Convention& a, const Convention& b) {
 std::string undecided_text(const Part& part, const ConventionRow& winner, const ConventionRow& other, bool as_declared,
                            const Convention& declared, const Camera& camera) {
   const auto share = [](const ConventionRow& row) {
-    return format("%.3g %% of the depth", 100.0 * row.relative_error);
+    return row.tried ? format("errs by %.3g %% of the depth", 100.0 * row.relative_error)
+                     : std::string("cannot be tried without more poses");
   };
   const std::string denial =
       as_declared ? "" : "not " + part.text(declared, camera) + " as the file says; what it is instead ";
   return std::string(part.name) + ": " + denial + "not decidable from these images (" +
-         part.text(winner.convention, camera) + " errs by " + share(winner) + ", " +
-         part.text(other.convention, camera) + " by " + share(other) + ")";
+         part.text(winner.convention, camera) + " " + share(winner) + ", " + part.text(other.convention, camera) + " " +
+         share(other) + ")";
 }
 
 std::string difference_text(const Part& part, const Convention& winner, const Convention& declared,
@@ -75,19 +78,24 @@ std::string difference_text(const Part& part, const Convention& winner, const Co
 }  // namespace
 
 bool beats(const ConventionRow& a, const ConventionRow& b) {
-  if (!std::isfinite(a.relative_error)) return false;
+  if (!std::isfinite(a.relative_error) || !b.tried) return false;
   if (!std::isfinite(b.relative_error)) return true;
-  int common = 0;
+  std::vector<double> errors_a;
+  std::vector<double> errors_b;
   int won = 0;
   int lost = 0;
   for (std::size_t i = 0; i < a.pair_errors.size(); ++i) {
     if (std::isnan(a.pair_errors[i]) || std::isnan(b.pair_errors[i])) continue;
-    ++common;
+    errors_a.push_back(a.pair_errors[i]);
+    errors_b.push_back(b.pair_errors[i]);
     won += a.pair_errors[i] < b.pair_errors[i];
     lost += a.pair_errors[i] > b.pair_errors[i];
   }
-  if (b.relative_error >= clear_ratio * a.relative_error) return won > lost || common == 0;
-  return b.relative_error >= least_ratio * a.relative_error && won - lost >= deviations * std::sqrt(common);
+  if (errors_a.empty()) return b.relative_error >= clear_ratio * a.relative_error;
+  const double median_a = statistics(errors_a).median;
+  const double median_b = statistics(errors_b).median;
+  if (median_b >= clear_ratio * median_a) return won > lost;
+  return median_b >= least_ratio * median_a && won - lost >= deviations * std::sqrt(errors_a.size());
 }
 
 void judge_conventions(ConventionReport& report, const Camera& camera, double max_error) {
@@ -110,9 +118,11 @@ void judge_conventions(ConventionReport& report, const Camera& camera, double ma
     finding.part = part.name;
     finding.as_declared = part.same(report.winner, report.declared);
     const auto other = std::find_if(report.rows.begin(), report.rows.end(), [&](const ConventionRow& row) {
-      return !part.same(row.convention, report.winner);
+      const bool rival = !part.same(row.convention, report.winner) &&
+                         agreement(row.convention, report.winner) >= static_cast<int>(std::size(parts)) - 2;
+      return rival && !beats(*winner, row);
     });
-    finding.decided = other == report.rows.end() || beats(*winner, *other);
+    finding.decided = other == report.rows.end();
     if (!finding.decided) {
       finding.text = undecided_text(part, *winner, *other, finding.as_declared, report.declared, camera);
       open += "; " + finding.text;
