@@ -33,7 +33,7 @@ PointCloud simulate_lidar(const Scene& scene, const std::vector<SE3>& T_world_sc
     const SE3& T = T_world_scanner[scan];
     require(T.is_finite(), "scanner pose", "finite");
     const Eigen::Matrix3d R = T.rotation_matrix();
-    const Eigen::Vector3d origin = T.translation();
+    const Eigen::Vector3d& origin = T.translation();
     std::vector<PointCloud> rings(static_cast<std::size_t>(options.rings));
     parallel_for(options.rings, 1, [&](int begin, int end) {
       for (int ring = begin; ring < end; ++ring) {

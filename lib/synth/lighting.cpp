@@ -110,19 +110,20 @@ Eigen::Vector3f gathered_light(const Scene& scene, const Texel& texel, int sampl
 
 /// Binomial 3x3 mean over a patch, which takes away most of the sampling noise.
 std::vector<Eigen::Vector3f> smoothed(const std::vector<Eigen::Vector3f>& light, int width, int height) {
+  auto at = [width](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  };
   std::vector<Eigen::Vector3f> out(light.size());
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
-          const int sx = std::clamp(x + dx, 0, width - 1);
-          const int sy = std::clamp(y + dy, 0, height - 1);
           const float weight = (dx == 0 ? 0.5F : 0.25F) * (dy == 0 ? 0.5F : 0.25F);
-          sum += weight * light[static_cast<std::size_t>(sy * width + sx)];
+          sum += weight * light[at(std::clamp(x + dx, 0, width - 1), std::clamp(y + dy, 0, height - 1))];
         }
       }
-      out[static_cast<std::size_t>(y * width + x)] = sum;
+      out[at(x, y)] = sum;
     }
   }
   return out;
@@ -153,11 +154,15 @@ void compute_light(SceneContent& content, const std::vector<PatchFrame>& frames,
     };
     patch.light_width = count(frames[p].size_m.x());
     patch.light_height = count(frames[p].size_m.y());
-    patch.light.assign(static_cast<std::size_t>(patch.light_width * patch.light_height), Eigen::Vector3f::Zero());
-    for (int i = 0; i < patch.light_width * patch.light_height; ++i) {
-      const float u = (static_cast<float>(i % patch.light_width) + 0.5F) / static_cast<float>(patch.light_width);
-      const float v = (static_cast<float>(i / patch.light_width) + 0.5F) / static_cast<float>(patch.light_height);
-      texels.push_back({static_cast<int>(p), i, frames[p].position(u, v), frames[p].normal(u, v)});
+    patch.light.clear();
+    for (int y = 0; y < patch.light_height; ++y) {
+      for (int x = 0; x < patch.light_width; ++x) {
+        const float u = (static_cast<float>(x) + 0.5F) / static_cast<float>(patch.light_width);
+        const float v = (static_cast<float>(y) + 0.5F) / static_cast<float>(patch.light_height);
+        texels.push_back(
+            {static_cast<int>(p), y * patch.light_width + x, frames[p].position(u, v), frames[p].normal(u, v)});
+        patch.light.push_back(Eigen::Vector3f::Zero());
+      }
     }
   }
 

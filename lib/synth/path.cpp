@@ -141,6 +141,7 @@ Trajectory hand_held_path(const std::vector<Waypoint>& waypoints, const PathOpti
   options.check();
   require(waypoints.size() >= (options.closed ? 3U : 2U), "waypoints", "at least 2, or 3 for a closed path");
   std::vector<Point> points;
+  points.reserve(waypoints.size());
   for (const Waypoint& w : waypoints) {
     require(w.eye.allFinite() && w.target.allFinite() && (w.target - w.eye).norm() >= min_target_distance, "waypoint",
             "finite, with its target at least 0.2 m from its eye");
@@ -151,6 +152,7 @@ Trajectory hand_held_path(const std::vector<Waypoint>& waypoints, const PathOpti
   const double duration = (options.frames - (options.closed ? 0 : 1)) / options.fps;
   Random random(options.seed);
   std::vector<Tremor> tremor;
+  tremor.reserve(6);
   for (int i = 0; i < 6; ++i) tremor.emplace_back(random, duration, options.closed);
 
   Trajectory path;

@@ -40,7 +40,7 @@ Rendering render(const Scene& scene, const Camera& camera, const SE3& T_world_ca
   if (options.color) out.color = ColorImage::zeros(camera.height, camera.width);
   const std::vector<Eigen::Vector2d> offsets = sample_offsets(options.samples);
   const Eigen::Matrix3d R = T_world_camera.rotation_matrix();
-  const Eigen::Vector3d centre = T_world_camera.translation();
+  const Eigen::Vector3d& centre = T_world_camera.translation();
   const Eigen::Vector3f centre_f = centre.cast<float>();
   // A little more than the samples' distance, so that what lies between them is seen too.
   const double spacing = 1.2 / (std::sqrt(static_cast<double>(options.samples)) * camera.fx);

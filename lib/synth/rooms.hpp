@@ -11,7 +11,7 @@
 namespace odosplat {
 
 /// A small closed room for tests: x 0..4, y 0..3, z 0..2.5 m, every surface with a strong multi-scale texture of its
-/// own, two boxes and a ball in it for occlusion. Unlit: colours do not depend on the view. About a tenth of a second.
+/// own, two boxes and a ball in it for occlusion. Unlit: colours do not depend on the view. Takes about half a second.
 Scene make_box_room(std::uint64_t seed);
 /// A furnished living room, x 0..6, y 0..4.6, z 0..2.6 m, floor at z = 0. Daylight through two windows and a lamp,
 /// soft shadows, light reflected between surfaces. Beside furniture there are bare walls and thin things (legs, leaves,

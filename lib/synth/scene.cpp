@@ -70,7 +70,8 @@ Eigen::Vector3f Scene::light(const RayHit& hit) const {
   const float a = x - static_cast<float>(x0);
   const float b = y - static_cast<float>(y0);
   auto texel = [&](int tx, int ty) -> const Eigen::Vector3f& {
-    return patch.light[static_cast<std::size_t>(ty * patch.light_width + tx)];
+    return patch.light[static_cast<std::size_t>(ty) * static_cast<std::size_t>(patch.light_width) +
+                       static_cast<std::size_t>(tx)];
   };
   return (1.0F - b) * ((1.0F - a) * texel(x0, y0) + a * texel(x1, y0)) +
          b * ((1.0F - a) * texel(x0, y1) + a * texel(x1, y1));

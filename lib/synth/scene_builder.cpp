@@ -92,7 +92,7 @@ void SceneBuilder::add_quad(const Eigen::Vector3f& corner, const Eigen::Vector3f
   const Eigen::Vector3f normal = edge_v.cross(edge_u).normalized();
   Surface surface;
   surface.position = [=](float u, float v) -> Eigen::Vector3f { return corner + u * edge_u + v * edge_v; };
-  surface.normal = [=](float, float) { return normal; };
+  surface.normal = [=](float, float) { return Eigen::Vector3f(normal); };
   surface.size_m = {edge_u.norm(), edge_v.norm()};
   surface.material = material;
   surface.texture_offset_m = texture_offset_m;

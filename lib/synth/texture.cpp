@@ -28,7 +28,7 @@ const std::array<float, 256>& linear_of_byte() {
 float to_linear(float stored) { return std::pow(std::max(stored, 0.0F), gamma); }
 float from_linear(float linear) { return std::pow(std::max(linear, 0.0F), 1.0F / gamma); }
 
-Texture::Texture(const ColorImage& image, Eigen::Vector2f size_m, Edge edge) : size_m_(size_m), edge_(edge) {
+Texture::Texture(const ColorImage& image, const Eigen::Vector2f& size_m, Edge edge) : size_m_(size_m), edge_(edge) {
   require(!image.empty(), "texture image", "not empty");
   require(size_m.minCoeff() > 0.0F, "texture size", "positive");
   // Levels are averaged in linear light, as a camera averages light; a side of 1 stays 1.
@@ -67,7 +67,7 @@ Eigen::Vector3f Texture::sample(const Eigen::Vector2f& uv, float footprint) cons
   if (wanted >= static_cast<float>(last)) return bilinear(levels_.back(), uv);
   const int fine = static_cast<int>(wanted);
   const float s = wanted - static_cast<float>(fine);
-  const Eigen::Vector3f a = bilinear(levels_[static_cast<std::size_t>(fine)], uv);
+  Eigen::Vector3f a = bilinear(levels_[static_cast<std::size_t>(fine)], uv);
   if (s < 0.02F) return a;
   const Eigen::Vector3f b = bilinear(levels_[static_cast<std::size_t>(fine) + 1], uv);
   return (1.0F - s) * a + s * b;

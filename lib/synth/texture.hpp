@@ -24,7 +24,7 @@ class Texture {
 
   /// image: stored values 0..1, kept in 8 bits. size_m: width and height of one tile on a surface [m], > 0.
   /// Throws InputError for an empty image or a size that is not positive.
-  Texture(const ColorImage& image, Eigen::Vector2f size_m, Edge edge);
+  Texture(const ColorImage& image, const Eigen::Vector2f& size_m, Edge edge);
 
   /// Linear R, G, B at uv [tiles], averaged over about `footprint` [texels of the finest level].
   Eigen::Vector3f sample(const Eigen::Vector2f& uv, float footprint) const;
