@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <cstdio>
+#include <memory>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/eval/convention_check.hpp"
+#include "sequence_flags.hpp"
+#include "support.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+// Frames with depth, and the poses that the files have for them.
+struct DepthFrames {
+  std::vector<std::size_t> frames;
+  ConventionInput input;
+};
+
+DepthFrames depth_frames(const Sequence& sequence) {
+  DepthFrames found;
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    if (!sequence.has_depth(i)) continue;
+    found.frames.push_back(i);
+    found.input.T_world_camera.push_back(sequence.T_world_camera(i));
+  }
+  if (found.frames.empty()) throw InputError(sequence.name(), "has no depth: nothing to check the conventions by");
+  found.input.camera = sequence.camera();
+  found.input.fy_sign = sequence.fy_sign();
+  found.input.depth_scale = sequence.depth_scale();
+  return found;
+}
+
+void run(SequenceFlags flags, const ConventionOptions& options) {
+  flags.options.as_stored = true;
+  const Sequence sequence = open_sequence(flags);
+  DepthFrames frames = depth_frames(sequence);
+  frames.input.depth = [&](std::size_t k) {
+    if (interrupted()) throw Interrupted();
+    return sequence.depth(frames.frames[k]);
+  };
+  const ConventionReport report = check_conventions(frames.input, options);
+  std::printf("%s: layout %s, %zu images, %zu with depth, %dx%d\n", sequence.name().c_str(), sequence.layout().c_str(),
+              sequence.size(), frames.frames.size(), sequence.camera().width, sequence.camera().height);
+  std::printf("depth of one image reprojected into another %d frames on, %d pairs\n", report.gap, report.pairs);
+  std::printf("%s", convention_table(report, sequence.camera()).c_str());
+  std::printf("%s\n", report.verdict.c_str());
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Common& common) {
+  CLI::App* command = add_command(
+      app, common, "check", "prove by reprojection which convention of fy, poses, numbering and depth scale holds");
+  auto flags = std::make_shared<SequenceFlags>();
+  auto options = std::make_shared<ConventionOptions>();
+  add_sequence_flags(command, *flags);
+  command->add_option("--gap", options->gap, "frames between the two images of a pair");
+  command->add_option("--pairs", options->pairs, "pairs of images");
+  command->final_callback([flags, options] { run(*flags, *options); });
+}
+
+}  // namespace odosplat::apps

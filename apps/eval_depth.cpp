@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "eval_depth.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/progress.hpp"
+#include "odosplat/eval/image_metrics.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "odosplat/odometry/frame.hpp"
+#include "odosplat/odometry/pixel_selector.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+// What the odometry would pick in this image.
+cv::Mat1b selected_mask(PixelSelector& selector, const GrayImage& gray, const Camera& camera) {
+  constexpr int wanted = 2000;
+  const std::vector<GradientImage> gradients = build_gradients(build_frame_pyramid(camera, gray));
+  cv::Mat1b mask(gray.size(), uchar{0});
+  for (const cv::Point& p : selector.select(gradients, {}, wanted)) mask(p) = 255;
+  return mask;
+}
+
+std::vector<std::size_t> judged_frames(const Sequence& sequence, const EvalDepthJob& job) {
+  std::vector<std::size_t> frames;
+  const auto skip = static_cast<std::size_t>(job.skip_every);
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    if (skip > 0 && i % skip == 0) continue;
+    if (sequence.T_world_camera(i) && sequence.has_depth(i)) frames.push_back(i);
+  }
+  std::vector<std::size_t> thinned;
+  for (std::size_t k = 0; k < frames.size(); k += static_cast<std::size_t>(job.every)) thinned.push_back(frames[k]);
+  if (thinned.empty()) throw InputError(sequence.name(), "no frame with pose and depth is left to judge");
+  return thinned;
+}
+
+void print_row(const char* region, const DepthErrors& e) {
+  std::printf("%-10s%12.2f%12.2f%12.2f%12.2f%11.2f%%\n", region, 1000.0 * e.median_abs_m, 1000.0 * e.rmse_m,
+              1000.0 * e.p90_m, 1000.0 * e.mean_m, 100.0 * e.valid_share);
+}
+
+nlohmann::ordered_json json_of(const DepthErrors& e) {
+  return {{"median_abs_m", e.median_abs_m},
+          {"rmse_m", e.rmse_m},
+          {"p90_m", e.p90_m},
+          {"mean_m", e.mean_m},
+          {"valid_share", e.valid_share}};
+}
+
+}  // namespace
+
+EvalDepthOutcome evaluate_depth(const Common& common, const EvalDepthJob& job) {
+  const Sequence sequence = open_sequence(job.sequence);
+  const std::vector<std::size_t> frames = judged_frames(sequence, job);
+  OpenedView opened = open_view(common, job.method, job.map);
+  PixelSelector selector{SelectorOptions()};
+  DepthMetrics all;
+  DepthMetrics selected;
+  DepthMetrics edges;
+  EvalDepthOutcome outcome;
+  ViewRequest request;
+  request.color = true;
+  Progress progress("eval-depth", static_cast<long>(frames.size()));
+  for (const std::size_t i : frames) {
+    if (interrupted()) throw Interrupted();
+    const DepthImage truth = sequence.depth(i);
+    const ColorImage color = sequence.color(i);
+    if (opened.sensor != nullptr) opened.sensor->set_depth(truth);
+    const ViewImages images = opened.view->render(sequence.camera(), *sequence.T_world_camera(i), request);
+    all.add(images.depth, truth);
+    selected.add(images.depth, truth, selected_mask(selector, to_gray(color), sequence.camera()));
+    edges.add(images.depth, truth, depth_edge_mask(truth));
+    if (!images.color.empty()) {
+      outcome.psnr_db += psnr_db(images.color, color);
+      outcome.ssim += ssim(images.color, color);
+    }
+    progress.update(++outcome.frames);
+    if (images.color.empty()) outcome.psnr_db = outcome.ssim = std::numeric_limits<double>::quiet_NaN();
+  }
+  progress.finish();
+  outcome.all = all.result();
+  outcome.selected = selected.result();
+  outcome.edges = edges.result();
+  outcome.psnr_db /= outcome.frames;
+  outcome.ssim /= outcome.frames;
+  if (opened.device) print_profile(common, *opened.device);
+  return outcome;
+}
+
+void add_eval_depth(CLI::App& app, Common& common) {
+  CLI::App* command =
+      add_command(app, common, "eval-depth", "errors of a map's depth against a sequence's, at true poses");
+  auto job = std::make_shared<EvalDepthJob>();
+  add_sequence_flags(command, job->sequence);
+  add_map_flags(command, job->map);
+  command->add_option("--method", job->method, "gaussian, paper or interpolation");
+  command->add_option("--every", job->every, "judge every Nth of the frames")->check(CLI::PositiveNumber);
+  command->add_option("--skip-every", job->skip_every, "leave out frames 0, N, 2N ... the map was made from, 0: none")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--json", job->json, "report to write (JSON)");
+  command->final_callback([&common, job] {
+    if (!job->json.empty()) ensure_output_file(job->json);
+    const EvalDepthOutcome o = evaluate_depth(common, *job);
+    std::printf("%-10s%12s%12s%12s%12s%12s\n", "[mm]", "median", "RMSE", "90 %", "mean", "valid");
+    print_row("all", o.all);
+    print_row("selected", o.selected);
+    print_row("edges", o.edges);
+    std::printf("%d frames", o.frames);
+    if (std::isfinite(o.psnr_db)) std::printf(", PSNR %.2f dB, SSIM %.4f", o.psnr_db, o.ssim);
+    std::printf("\n");
+    if (job->json.empty()) return;
+    nlohmann::ordered_json json{
+        {"all", json_of(o.all)}, {"selected", json_of(o.selected)}, {"edges", json_of(o.edges)}, {"frames", o.frames}};
+    // JSON has no NaN: null says that the map has no colour.
+    json["psnr_db"] = std::isfinite(o.psnr_db) ? nlohmann::ordered_json(o.psnr_db) : nullptr;
+    json["ssim"] = std::isfinite(o.ssim) ? nlohmann::ordered_json(o.ssim) : nullptr;
+    write_file_atomically(job->json, json.dump(2) + "\n");
+  });
+}
+
+}  // namespace odosplat::apps

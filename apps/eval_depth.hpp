@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include "map_views.hpp"
+#include "odosplat/eval/depth_metrics.hpp"
+#include "sequence_flags.hpp"
+
+namespace odosplat::apps {
+
+struct EvalDepthJob {
+  SequenceFlags sequence;
+  std::string method = "gaussian";
+  MapFlags map;
+  std::string json;
+  int every = 10;       // step between judged frames
+  int skip_every = 10;  // frames 0, N, 2N, ... are what the map was trained on and are left out; 0: none
+};
+
+struct EvalDepthOutcome {
+  DepthErrors all;
+  DepthErrors selected;
+  DepthErrors edges;
+  double psnr_db = 0.0;  // NaN where the map has no colour
+  double ssim = 0.0;
+  int frames = 0;
+};
+
+/// Depth (and colour) of a map at true poses against the sequence's own, on frames the map was not made from.
+EvalDepthOutcome evaluate_depth(const Common& common, const EvalDepthJob& job);
+
+}  // namespace odosplat::apps

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "map_views.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/cloud_file.hpp"
+#include "odosplat/map/interpolation_view.hpp"
+#include "odosplat/splat/gaussian_view.hpp"
+#include "odosplat/splat/map_file.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+std::string needed(const std::string& method, const char* flag, const std::string& value) {
+  if (value.empty()) throw InputError(flag, "is needed for method " + method);
+  return value;
+}
+
+// Basis function of degree 0 of spherical harmonics.
+constexpr float sh_constant = 0.28209479F;
+
+}  // namespace
+
+void add_map_flags(CLI::App* command, MapFlags& flags) {
+  command->add_option("--map", flags.map, "map of Gaussians (PLY, as train writes it)");
+  command->add_option("--cloud", flags.cloud, "point cloud (PLY)");
+}
+
+OpenedView open_view(const Common& common, const std::string& method, const MapFlags& flags) {
+  OpenedView opened;
+  if (method == "gaussian" || method == "paper") {
+    const Gaussians gaussians = read_map(needed(method, "--map", flags.map));
+    GaussianViewOptions options;
+    if (method == "paper") options.depth_mode = DepthMode::blended;
+    opened.device = open_device(common);
+    opened.view = std::make_unique<GaussianView>(*opened.device, gaussians, options);
+  } else if (method == "interpolation") {
+    opened.view = std::make_unique<InterpolationView>(read_point_cloud(needed(method, "--cloud", flags.cloud)));
+  } else if (method == "rgbd") {
+    auto view = std::make_unique<SensorView>();
+    opened.sensor = view.get();
+    opened.view = std::move(view);
+  } else {
+    throw InputError("--method", "must be gaussian, paper, interpolation or rgbd, is " + method);
+  }
+  return opened;
+}
+
+MapPoints read_map_points(const MapFlags& flags) {
+  MapPoints points;
+  if (flags.map.empty()) {
+    if (!flags.cloud.empty()) points.cloud = read_point_cloud(flags.cloud);
+    return points;
+  }
+  const Gaussians g = read_map(flags.map);
+  const auto stride = static_cast<std::size_t>(3 * g.coefficients());
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    // What is almost transparent is not part of the picture.
+    if (g.opacity_logits[i] < -2.0F) continue;
+    const Eigen::Map<const Eigen::Vector3f> log_scale(&g.log_scales[3 * i]);
+    const float* q = &g.rotations[4 * i];
+    const Eigen::Quaternionf rotation = Eigen::Quaternionf(q[0], q[1], q[2], q[3]).normalized();
+    int thin = 0;
+    log_scale.minCoeff(&thin);
+    std::array<float, 3> sorted{log_scale[0], log_scale[1], log_scale[2]};
+    std::sort(sorted.begin(), sorted.end());
+    const Eigen::Vector3f sh(g.sh[stride * i], g.sh[stride * i + 1], g.sh[stride * i + 2]);
+    points.cloud.points.emplace_back(Eigen::Map<const Eigen::Vector3f>(&g.positions[3 * i]));
+    points.cloud.colors.emplace_back(
+        (sh_constant * sh + Eigen::Vector3f::Constant(0.5F)).cwiseMax(0.0F).cwiseMin(1.0F));
+    points.cloud.normals.emplace_back(rotation * Eigen::Vector3f::Unit(thin));
+    points.radii.push_back(std::exp(0.5F * (sorted[1] + sorted[2])));
+  }
+  return points;
+}
+
+}  // namespace odosplat::apps

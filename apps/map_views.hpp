@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "odosplat/map/map_view.hpp"
+#include "odosplat/map/sensor_view.hpp"
+#include "odosplat/viewer/map_points.hpp"
+#include "support.hpp"
+
+namespace odosplat::apps {
+
+/// Where a method's map comes from.
+struct MapFlags {
+  std::string map;    // map.ply of Gaussians
+  std::string cloud;  // point cloud
+};
+
+void add_map_flags(CLI::App* command, MapFlags& flags);
+
+/// A map behind the interface that the odometry knows, with the device it runs on if it needs one.
+struct OpenedView {
+  std::unique_ptr<MapView> view;
+  std::optional<compute::Context> device;
+  SensorView* sensor = nullptr;  // method rgbd: set_depth() before each frame; else null
+};
+
+/// gaussian: Gaussians of --map, depth by ray planes, normalised; paper: the same with the paper's blended depth;
+/// interpolation: depth interpolated in --cloud; rgbd: the sequence's own depth images.
+/// InputError for another word or a file that the method needs and was not given.
+OpenedView open_view(const Common& common, const std::string& method, const MapFlags& flags);
+
+/// What the figures draw: the Gaussians' discs if there is a map, else the points of the cloud.
+MapPoints read_map_points(const MapFlags& flags);
+
+}  // namespace odosplat::apps

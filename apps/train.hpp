@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <vector>
+
+#include "odosplat/splat/initialize.hpp"
+#include "odosplat/splat/trainer.hpp"
+#include "sequence_flags.hpp"
+#include "support.hpp"
+
+namespace odosplat::apps {
+
+struct TrainJob {
+  std::vector<std::string> sequences;  // in one world frame
+  SequenceOptions sequence_options;
+  std::string cloud;
+  std::string out;
+  std::string report;  // JSON; empty: none
+  int every = 10;
+  std::string preset = "default";
+  int iterations = -1;  // < 0: the preset's
+  std::uint64_t seed = 42;
+  std::size_t budget = 0;  // Gaussians, 0: one a point
+};
+
+/// Makes map.ply from a cloud and posed images, and the report if asked. After Ctrl-C the map as it is then is
+/// written, and Interrupted thrown.
+TrainingReport train_map(const Common& common, const TrainJob& job);
+
+}  // namespace odosplat::apps

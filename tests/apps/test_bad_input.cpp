@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+// Bad input as a user meets it: one line that names the file and the fault, exit 2, nothing half-written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "odosplat/io/image_file.hpp"
+#include "run_program.hpp"
+#include "tiny_world.hpp"
+
+namespace odosplat::apps_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr const char* ply_header =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+
+void truncate(const fs::path& file, double share) {
+  fs::resize_file(file, static_cast<std::uintmax_t>(share * static_cast<double>(fs::file_size(file))));
+}
+
+class BadInput : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_tiny_sequence(sequence_, 12);
+    write_text(cloud_, std::string(ply_header) + "1 1 1\n2 1 1\n1 2 1\n");
+  }
+
+  // Runs, and holds the run against the contract. `out`: what must not be there afterwards.
+  void expect_refused(const std::vector<std::string>& words, const std::string& file, const std::string& fault,
+                      const fs::path& out = {}) {
+    const RunResult result = run_odosplat(words);
+    SCOPED_TRACE(testing::PrintToString(words));
+    EXPECT_EQ(result.status, 2) << result.err;
+    // Logs may come before; the error is the last line and the only one of the program's own.
+    const std::size_t start = result.err.find("odosplat: ");
+    ASSERT_NE(start, std::string::npos) << result.err;
+    const std::string line = result.err.substr(start);
+    EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
+    EXPECT_THAT(line, HasSubstr(file));
+    EXPECT_THAT(line, testing::ContainsRegex(fault));
+    if (!out.empty()) EXPECT_FALSE(fs::exists(out)) << "half-written " << out;
+    for (const auto& entry : fs::recursive_directory_iterator(scratch_.path())) {
+      EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+    }
+  }
+  void expect_cloud_refused(const std::string& file, const std::string& fault) {
+    const std::string out = scratch_ / "never.ply";
+    expect_refused({"cloud", sequence_, "--every", "1", "--out", out}, file, fault, out);
+  }
+  void expect_camera_refused(const std::string& yaml, const std::string& fault) {
+    write_text(sequence_ + "/camera.yaml", yaml);
+    expect_cloud_refused("camera.yaml", fault);
+  }
+
+  ScratchFolder scratch_;
+  std::string sequence_ = scratch_ / "seq";
+  std::string cloud_ = scratch_ / "cloud.ply";
+};
+
+TEST_F(BadInput, MissingFiles) {
+  expect_refused({"check", scratch_ / "nowhere"}, "nowhere", "");
+  expect_refused({"eval", scratch_ / "no.txt", "--truth", sequence_ + "/groundtruth.txt"}, "no.txt", "No such file");
+  expect_refused({"train", sequence_, "--cloud", scratch_ / "no.ply", "--out", scratch_ / "m.ply"}, "no.ply",
+                 "No such file", scratch_ / "m.ply");
+  expect_refused({"track", sequence_, "--map", scratch_ / "no.ply", "--out", scratch_ / "run"}, "no.ply",
+                 "No such file");
+  fs::remove(sequence_ + "/rgb/0005.png");
+  expect_cloud_refused("0005.png", "");
+}
+
+TEST_F(BadInput, TruncatedImages) {
+  const std::string file = sequence_ + "/rgb/0003.png";
+  const std::string whole = read_text(file);
+  for (const double share : {0.0, 0.01, 0.5, 0.99}) {
+    write_text(file, whole);
+    truncate(file, share);
+    expect_cloud_refused("0003.png", "");
+  }
+  write_text(file, whole);
+  truncate(sequence_ + "/depth/0004.png", 0.7);
+  expect_cloud_refused("depth/0004.png", "");
+}
+
+TEST_F(BadInput, TruncatedPly) {
+  const std::string out = scratch_ / "m.ply";
+  const std::vector<std::string> words{"train", sequence_, "--cloud", cloud_, "--out", out};
+  write_text(cloud_, std::string(ply_header) + "1 1 1\n2 1 1\n");
+  expect_refused(words, "cloud.ply", "promises 3.*2", out);
+  write_text(cloud_, "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nproperty float y\n"
+                     "property float z\nend_header\n1 1 1\n");
+  expect_refused(words, "cloud.ply", "99999999999", out);
+  write_text(cloud_, "ply\nformat ascii 1.0\n");
+  expect_refused(words, "cloud.ply", "header", out);
+  write_text(cloud_, "not a ply");
+  expect_refused(words, "cloud.ply", "PLY", out);
+}
+
+TEST_F(BadInput, MapWithoutGaussians) {
+  // A cloud is no map, and a map of no Gaussians is none either.
+  expect_refused({"track", sequence_, "--map", cloud_, "--out", scratch_ / "run"}, "cloud.ply", "");
+  std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex 0\n";
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0",
+                           "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"}) {
+    header += std::string("property float ") + name + "\n";
+  }
+  write_text(scratch_ / "empty.ply", header + "end_header\n");
+  expect_refused({"track", sequence_, "--map", scratch_ / "empty.ply", "--out", scratch_ / "run"}, "empty.ply",
+                 "no Gaussians");
+}
+
+TEST_F(BadInput, Poses) {
+  const std::string file = sequence_ + "/groundtruth.txt";
+  const std::string whole = read_text(file);
+  write_text(file, whole + "99.0 nan 0 0 0 0 0 1\n");
+  expect_cloud_refused("groundtruth.txt", "line 14.*nan");
+  write_text(file, whole + "99.0 1 0 0 0 0 0 0\n");
+  expect_cloud_refused("groundtruth.txt", "quaternion");
+  write_text(file, whole + "99.0 1 0 0\n");
+  expect_cloud_refused("groundtruth.txt", "line 14");
+  write_text(file, "# nothing\n");
+  expect_cloud_refused("groundtruth.txt", "no pose");
+}
+
+TEST_F(BadInput, CameraFile) {
+  const std::string good = "width: 160\nheight: 120\nfx: 130\nfy: 130\ncx: 79.5\n";
+  expect_camera_refused(good, "cy: is missing");
+  expect_camera_refused("width: 160\nheight: 120\nfx: 0\nfy: 130\ncx: 79.5\ncy: 59.5\n", "fx: must be positive");
+  expect_camera_refused(good + "cy: about 60\n", "cy: is not a number");
+  expect_camera_refused(good + "cy: 59.5\ndistortion: [1, 2]\n", "distortion");
+  expect_camera_refused("{", "");
+  expect_camera_refused("width: 320\nheight: 240\nfx: 130\nfy: 130\ncx: 79.5\ncy: 59.5\n", "");
+}
+
+TEST_F(BadInput, DepthAndColourOfDifferentSizes) {
+  write_png16(sequence_ + "/depth/0000.png", cv::Mat1w(60, 80, std::uint16_t{5000}));
+  expect_cloud_refused("0000.png", "80x60.*160x120|160x120.*80x60");
+}
+
+TEST_F(BadInput, UnknownDevice) {
+  expect_refused({"train", sequence_, "--cloud", cloud_, "--out", scratch_ / "m.ply", "--device", "no such thing"},
+                 "no such thing", "no such OpenCL device", scratch_ / "m.ply");
+}
+
+TEST_F(BadInput, OutputThatCannotBeWritten) {
+  // Below a regular file there is no folder, whoever asks (root too).
+  const std::string below = sequence_ + "/rgb.txt/x";
+  expect_refused({"cloud", sequence_, "--out", below + ".ply"}, "rgb.txt", "cannot be written");
+  expect_refused({"track", sequence_, "--method", "interpolation", "--cloud", cloud_, "--out", below}, "rgb.txt",
+                 "cannot be written");
+  expect_refused({"demo", "--out", below}, "rgb.txt", "cannot be written");
+  expect_refused({"view", "map", "--cloud", cloud_, "--out", below + ".png"}, "rgb.txt", "cannot be written");
+}
+
+TEST_F(BadInput, Flags) {
+  const std::vector<std::string> track{"track", sequence_, "--cloud", cloud_, "--out", scratch_ / "run"};
+  auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = track;
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  expect_refused(with({}), "--map", "needed for method gaussian");
+  expect_refused(with({"--method", "magic"}), "--method", "magic");
+  expect_refused(with({"--method", "interpolation", "--start", "1 2 3"}), "--start", "");
+  expect_refused(with({"--method", "interpolation", "--start", "0 0 0 0 0 0 0"}), "--start", "quaternion");
+  expect_refused({"view", "map", "--cloud", cloud_, "--out", scratch_ / "x.png", "--size", "big"}, "--size", "big",
+                 scratch_ / "x.png");
+}
+
+}  // namespace
+}  // namespace odosplat::apps_test

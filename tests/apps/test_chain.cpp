@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+// The chain from posed images and a cloud to a judged trajectory, as a user runs it: one program call after another.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "odosplat/io/image_file.hpp"
+#include "run_program.hpp"
+#include "tiny_world.hpp"
+
+namespace odosplat::apps_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+RunResult must_run(const std::vector<std::string>& words) {
+  RunResult result = run_odosplat(words);
+  EXPECT_EQ(result.status, 0) << testing::PrintToString(words) << "\n" << result.err;
+  return result;
+}
+
+int lines_of(const fs::path& file) {
+  const std::string text = read_text(file);
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+class Chain : public testing::Test {
+ protected:
+  static constexpr int frames = 40;
+
+  void SetUp() override {
+    write_tiny_sequence(scratch_ / "seq", frames);
+    must_run({"cloud", sequence_, "--every", "5", "--voxel", "0.03", "--noise", "0.002", "--out", cloud_});
+    train(map_, "2");
+  }
+  void train(const std::string& out, const std::string& threads) {
+    must_run({"train", sequence_, "--every", "5", "--cloud", cloud_, "--iterations", "40", "--out", out, "--report",
+              out + ".json", "--threads", threads});
+  }
+  std::string track(const std::string& sequence, const std::string& name, std::vector<std::string> more) {
+    const std::string out = scratch_ / name;
+    std::vector<std::string> words{"track", sequence, "--map", map_, "--cloud", cloud_, "--out", out};
+    words.insert(words.end(), more.begin(), more.end());
+    must_run(words);
+    return out;
+  }
+  double ate(const std::string& run) {
+    must_run({"eval", run + "/trajectory.txt", "--truth", sequence_ + "/groundtruth.txt", "--json", run + "/eval.json"});
+    const auto json = nlohmann::json::parse(read_text(run + "/eval.json"));
+    EXPECT_EQ(json["pairs"], frames);
+    EXPECT_EQ(json["coverage"], 1.0);
+    for (const char* key : {"ate_m", "rte_m", "rre_deg"}) {
+      for (const char* figure : {"rmse", "mean", "median", "max", "p99"}) EXPECT_TRUE(json[key].contains(figure));
+    }
+    return json["ate_m"]["rmse"];
+  }
+
+  ScratchFolder scratch_;
+  std::string sequence_ = scratch_ / "seq";
+  std::string cloud_ = scratch_ / "cloud.ply";
+  std::string map_ = scratch_ / "map.ply";
+};
+
+TEST_F(Chain, TracksWithEveryDepth) {
+  const std::string gaussian = track(sequence_, "gaussian", {});
+  EXPECT_LT(ate(gaussian), 0.01);
+  const std::string interpolation = track(sequence_, "interpolation", {"--method", "interpolation"});
+  EXPECT_LT(ate(interpolation), 0.03);
+  const std::string rgbd = track(sequence_, "rgbd", {"--method", "rgbd"});
+  EXPECT_LT(ate(rgbd), 0.03);
+  EXPECT_EQ(lines_of(gaussian + "/trajectory.txt"), frames + 1);
+  EXPECT_EQ(lines_of(gaussian + "/trajectory_live.txt"), frames + 1);
+  EXPECT_EQ(lines_of(gaussian + "/status.csv"), frames + 1);
+  const auto report = nlohmann::json::parse(read_text(gaussian + "/report.json"));
+  for (const char* key : {"method", "frames", "posed", "lost", "relocalisations", "keyframes", "ms_per_frame",
+                          "stages_ms", "peak_memory_mb", "device", "seed", "version"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  EXPECT_EQ(report["frames"], frames);
+  EXPECT_EQ(report["posed"].get<int>() + report["lost"].get<int>(), frames);
+}
+
+TEST_F(Chain, UsesNoTruthButTheFirstPose) {
+  const std::string blind = scratch_ / "blind";
+  fs::copy(sequence_, blind, fs::copy_options::recursive);
+  fs::remove_all(blind + "/depth");
+  std::istringstream truth(read_text(sequence_ + "/groundtruth.txt"));
+  std::string first;
+  for (std::string line; first.empty() && std::getline(truth, line);) {
+    if (line[0] != '#') first = line;
+  }
+  write_text(blind + "/groundtruth.txt", first + "\n");
+  const std::string a = track(sequence_, "a", {});
+  const std::string b = track(blind, "b", {});
+  EXPECT_EQ(read_text(a + "/trajectory.txt"), read_text(b + "/trajectory.txt"));
+  EXPECT_EQ(read_text(a + "/trajectory_live.txt"), read_text(b + "/trajectory_live.txt"));
+}
+
+TEST_F(Chain, ThreadsChangeNoBit) {
+  train(scratch_ / "map1.ply", "1");
+  EXPECT_EQ(read_text(map_), read_text(scratch_ / "map1.ply"));
+  const std::string a = track(sequence_, "a", {"--threads", "1"});
+  const std::string b = track(sequence_, "b", {"--threads", "3"});
+  EXPECT_EQ(read_text(a + "/trajectory.txt"), read_text(b + "/trajectory.txt"));
+}
+
+TEST_F(Chain, RendersAndDraws) {
+  const std::string out = scratch_ / "render";
+  must_run({"render", "--map", map_, "--poses", sequence_ + "/groundtruth.txt", "--camera", sequence_ + "/camera.yaml",
+            "--out", out, "--what", "color,depth,alpha,sigma"});
+  for (const char* kind : {"color", "depth", "alpha", "sigma"}) {
+    EXPECT_TRUE(fs::exists(out + "/" + kind + "/000000.png")) << kind;
+    EXPECT_TRUE(fs::exists(out + "/" + kind + "/000039.png")) << kind;
+  }
+  // Depth of the map against the sequence's own, in the units of camera.yaml.
+  const cv::Mat1w rendered = read_depth_raw(out + "/depth/000003.png");
+  const cv::Mat1w truth = read_depth_raw(sequence_ + "/depth/0003.png");
+  std::vector<int> differences;
+  for (int y = 0; y < truth.rows; ++y) {
+    for (int x = 0; x < truth.cols; ++x) {
+      if (rendered(y, x) > 0 && truth(y, x) > 0) differences.push_back(std::abs(rendered(y, x) - truth(y, x)));
+    }
+  }
+  ASSERT_GT(differences.size(), truth.total() * 9 / 10);
+  std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2),
+                   differences.end());
+  EXPECT_LT(differences[differences.size() / 2], 5 * 10) << "median error of 10 mm at 5000 units a metre";
+
+  const std::string run = track(sequence_, "run", {});
+  must_run({"view", "map", "--map", map_, "--poses", sequence_ + "/groundtruth.txt", "--out", scratch_ / "m.png",
+            "--size", "400x300"});
+  must_run({"view", "trajectory", run + "/trajectory.txt", "--truth", sequence_ + "/groundtruth.txt", "--map", map_,
+            "--out", scratch_ / "t.png", "--size", "640x300"});
+  must_run({"view", "depth", sequence_, "--map", map_, "--frame", "7", "--out", scratch_ / "d.png"});
+  must_run({"view", "compare", sequence_, "--map", map_, "--cloud", cloud_, "--frame", "3,17", "--out",
+            scratch_ / "c.png", "--size", "1200x500"});
+  EXPECT_EQ(read_image_size(scratch_ / "m.png"), cv::Size(400, 300));
+  EXPECT_EQ(read_image_size(scratch_ / "c.png"), cv::Size(1200, 500));
+  const RunResult depth = must_run({"eval-depth", sequence_, "--map", map_, "--json", scratch_ / "depth.json"});
+  EXPECT_THAT(depth.out, HasSubstr("selected"));
+  const auto json = nlohmann::json::parse(read_text(scratch_ / "depth.json"));
+  EXPECT_LT(json["all"]["median_abs_m"], 0.01);
+  EXPECT_GT(json["psnr_db"], 15.0);
+}
+
+TEST_F(Chain, CheckNamesTheFault) {
+  EXPECT_THAT(must_run({"check", sequence_, "--gap", "10"}).out, testing::Not(HasSubstr("the data want")));
+  write_text(sequence_ + "/camera.yaml",
+             "width: 160\nheight: 120\nfx: 130\nfy: -130\ncx: 79.5\ncy: 59.5\ndepth_scale: 5000\n");
+  EXPECT_THAT(must_run({"check", sequence_, "--gap", "10"}).out, HasSubstr("fy"));
+}
+
+}  // namespace
+}  // namespace odosplat::apps_test
