@@ -22,7 +22,7 @@ DepthFrames depth_frames(const Sequence& sequence) {
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     if (!sequence.has_depth(i)) continue;
     found.frames.push_back(i);
-    found.input.T_world_camera.push_back(sequence.T_world_camera(i));
+    found.input.T_world_camera.push_back(sequence.T_world_depth(i));
   }
   if (found.frames.empty()) throw InputError(sequence.name(), "has no depth: nothing to check the conventions by");
   found.input.camera = sequence.camera();

@@ -29,8 +29,8 @@ void run(const CloudFlags& flags) {
   long done = 0;
   for (const std::size_t i : frames) {
     if (interrupted()) throw Interrupted();
-    if (sequence.has_depth(i)) {
-      builder.add(sequence.depth(i), sequence.color(i), sequence.camera(), *sequence.T_world_camera(i));
+    if (sequence.has_depth(i) && sequence.T_world_depth(i)) {
+      builder.add(sequence.depth(i), sequence.color(i), sequence.camera(), *sequence.T_world_depth(i));
     }
     progress.update(++done, std::to_string(builder.voxels()) + " points");
   }

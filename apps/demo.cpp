@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include <cstdio>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include "demo_world.hpp"
@@ -52,14 +52,14 @@ Row run_method(const Common& common, const std::string& out, const DemoWorld& wo
 std::string table_of(const std::vector<Row>& rows) {
   std::string text;
   char line[256];
-  std::snprintf(line, sizeof(line), "%-15s %9s %9s %9s %9s %9s %13s %13s\n", "depth from", "posed", "ATE [mm]", "max [mm]",
-                "RTE [mm]", "RRE [deg]", "depth median", "depth 90 %");
+  std::snprintf(line, sizeof(line), "%-15s %9s %9s %9s %9s %9s %13s %13s\n", "depth from", "posed", "ATE [mm]",
+                "max [mm]", "RTE [mm]", "RRE [deg]", "depth median", "depth 90 %");
   text += line;
   for (const Row& r : rows) {
     char posed[32];
     std::snprintf(posed, sizeof(posed), "%d/%d", r.track.posed, r.track.frames);
-    std::snprintf(line, sizeof(line), "%-15s %9s %9.2f %9.2f %9.2f %9.4f %10.2f mm %10.2f mm\n", r.method.c_str(), posed,
-                  1000.0 * r.result.ate_m.rmse, 1000.0 * r.result.ate_m.max, 1000.0 * r.result.rte_m.rmse,
+    std::snprintf(line, sizeof(line), "%-15s %9s %9.2f %9.2f %9.2f %9.4f %10.2f mm %10.2f mm\n", r.method.c_str(),
+                  posed, 1000.0 * r.result.ate_m.rmse, 1000.0 * r.result.ate_m.max, 1000.0 * r.result.rte_m.rmse,
                   r.result.rre_deg.rmse, 1000.0 * r.depth.all.median_abs_m, 1000.0 * r.depth.all.p90_m);
     text += line;
   }
@@ -96,12 +96,14 @@ void draw_compare_picture(const Common& common, const std::string& out, const De
   OpenedView gaussian = open_view(common, "gaussian", map);
   CompareFigure figure;
   // Two views that the map was not trained on.
-  for (const std::size_t frame : {sequence.size() / 4 + 5 - sequence.size() / 4 % 10, sequence.size() * 3 / 4 / 10 * 10 + 5}) {
+  for (const std::size_t frame :
+       {sequence.size() / 4 + 5 - sequence.size() / 4 % 10, sequence.size() * 3 / 4 / 10 * 10 + 5}) {
     const SE3 T_world_camera = *sequence.T_world_camera(frame);
     CompareExample example;
     example.name = "frame " + std::to_string(frame);
     example.image = sequence.color(frame);
-    example.methods.push_back({"interpolated", interpolation.view->render(sequence.camera(), T_world_camera, {}).depth});
+    example.methods.push_back(
+        {"interpolated", interpolation.view->render(sequence.camera(), T_world_camera, {}).depth});
     example.methods.push_back({"rendered", gaussian.view->render(sequence.camera(), T_world_camera, {}).depth});
     example.truth = sequence.depth(frame);
     figure.examples.push_back(std::move(example));

@@ -23,28 +23,19 @@ namespace odosplat::apps {
 namespace {
 
 constexpr double depth_units = 5000.0;  // a metre, as in TUM's files
-constexpr double cloud_voxel = 0.03;    // [m]
+constexpr double cloud_voxel = 0.04;    // [m]
 
-// A walk round the middle of the room that looks at the furniture and at times at bare wall.
 Trajectory walk(const DemoOptions& options) {
   PathOptions path;
   path.frames = options.frames;
   path.seed = options.seed;
-  return hand_held_path({{{1.6, 1.2, 1.45}, {4.4, 3.4, 0.7}},
-                         {{2.2, 1.1, 1.4}, {3.4, 4.2, 0.8}},
-                         {{2.9, 1.3, 1.5}, {2.0, 4.2, 0.9}},
-                         {{3.2, 1.8, 1.45}, {1.0, 3.6, 0.8}}},
-                        path);
+  return hand_held_path(living_room_walk(), path);
 }
 
 PointCloud scan(const Scene& scene, const DemoOptions& options) {
   LidarOptions lidar;
   lidar.seed = options.seed;
-  const Eigen::Quaterniond level = Eigen::Quaterniond::Identity();
-  const PointCloud cloud =
-      simulate_lidar(scene, {{level, Eigen::Vector3d(1.4, 1.2, 1.5)}, {level, Eigen::Vector3d(4.2, 1.4, 1.5)},
-                             {level, Eigen::Vector3d(3.0, 2.9, 1.6)}},
-                     lidar);
+  const PointCloud cloud = simulate_lidar(scene, living_room_scan_poses(), lidar);
   return voxel_downsample(cloud, cloud_voxel);
 }
 
@@ -76,7 +67,7 @@ DemoWorld make_demo_world(const std::string& out, const DemoOptions& options) {
   DemoWorld world;
   world.sequence = out + "/sequence";
   world.cloud = out + "/cloud.ply";
-  const double focal = 0.82 * options.width;  // 63 degrees across
+  const double focal = 0.78125 * options.width;  // 65 degrees across
   world.camera = {options.width, options.height, focal, focal, 0.5 * options.width - 0.5, 0.5 * options.height - 0.5};
   world.camera.check();
   world.truth = walk(options);

@@ -11,9 +11,12 @@ namespace {
 
 const char* word_for(compute::DeviceType type) {
   switch (type) {
-    case compute::DeviceType::cpu: return "cpu";
-    case compute::DeviceType::gpu: return "gpu";
-    default: return "other";
+    case compute::DeviceType::cpu:
+      return "cpu";
+    case compute::DeviceType::gpu:
+      return "gpu";
+    default:
+      return "other";
   }
 }
 

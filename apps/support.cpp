@@ -27,8 +27,9 @@ extern "C" void on_interrupt(int) {
 CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& help) {
   CLI::App* command = app.add_subcommand(name, help);
   command->option_defaults()->always_capture_default();
-  command->add_option("--device", common.device,
-                      "OpenCL device: index or part of a name (default: ODOSPLAT_DEVICE, else first GPU, else first CPU)");
+  command->add_option(
+      "--device", common.device,
+      "OpenCL device: index or part of a name (default: ODOSPLAT_DEVICE, else first GPU, else first CPU)");
   command->add_option("--threads", common.threads, "CPU threads, 0 = all cores")->check(CLI::NonNegativeNumber);
   command->add_flag("--profile", common.profile, "print the time of every stage");
   command->add_option("--log", common.log, "debug, info, warning or off");

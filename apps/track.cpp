@@ -127,9 +127,9 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
     if (opened.sensor != nullptr) opened.sensor->set_depth(sequence.has_depth(i) ? sequence.depth(i) : DepthImage());
     const TrackResult result = odometry.track(sequence.gray(i), sequence.time(i));
     recorder.add(sequence, i, result);
-    progress.update(static_cast<long>(i) + 1,
-                    to_string(result.status) + "  " + std::to_string(odometry.statistics().keyframes) +
-                        " keyframes  " + std::to_string(odometry.statistics().lost) + " lost");
+    progress.update(static_cast<long>(i) + 1, to_string(result.status) + "  " +
+                                                  std::to_string(odometry.statistics().keyframes) + " keyframes  " +
+                                                  std::to_string(odometry.statistics().lost) + " lost");
   }
   progress.finish();
   const TrackOutcome outcome = recorder.outcome(odometry);

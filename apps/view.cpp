@@ -104,7 +104,8 @@ struct FrameViewFlags {
 
 SE3 pose_of_frame(const Sequence& sequence, std::size_t frame) {
   if (frame >= sequence.size()) {
-    throw InputError("--frame", "is " + std::to_string(frame) + ", the sequence has " + std::to_string(sequence.size()));
+    throw InputError("--frame",
+                     "is " + std::to_string(frame) + ", the sequence has " + std::to_string(sequence.size()));
   }
   if (!sequence.T_world_camera(frame)) throw InputError("--frame", std::to_string(frame) + " has no pose");
   return *sequence.T_world_camera(frame);
@@ -174,7 +175,8 @@ void add_view(CLI::App& app, Common& common) {
   command->final_callback([trajectory] { run_trajectory(*trajectory); });
 
   auto depth = std::make_shared<FrameViewFlags>();
-  command = add_view_kind(view, common, "depth", "depth, sigma and alpha of a map at a frame's true pose", depth->output);
+  command =
+      add_view_kind(view, common, "depth", "depth, sigma and alpha of a map at a frame's true pose", depth->output);
   add_sequence_flags(command, depth->sequence);
   add_map_flags(command, depth->map);
   command->add_option("--method", depth->method, "gaussian, paper, interpolation or rgbd");

@@ -60,13 +60,15 @@ SequenceIndex index_tum(const std::string& path, const SequenceOptions& options)
   const std::string truth = join(path, "groundtruth.txt");
   if (file_exists(truth)) index.truth = read_trajectory(truth);
   for (const ListedImage& image : colors) {
-    index.frames.push_back({image.time, image.time_text, join(path, image.path), "", pose_at(index.truth, image.time)});
+    index.frames.push_back(
+        {image.time, image.time_text, join(path, image.path), "", pose_at(index.truth, image.time), std::nullopt});
   }
   const std::string depth_list = join(path, "depth.txt");
   if (file_exists(depth_list)) {
     const std::vector<ListedImage> depths = parse_image_list(depth_list, read_file(depth_list));
     for (const auto& [i, j] : associate_by_time(times_of(colors), times_of(depths), tum_depth_tolerance)) {
       index.frames[i].depth = join(path, depths[j].path);
+      index.frames[i].T_world_depth = pose_at(index.truth, depths[j].time);
     }
   }
   return index;

@@ -22,6 +22,8 @@ struct FrameFiles {
   std::string color;      // full path; empty in videos
   std::string depth;      // full path; empty: none
   std::optional<SE3> T_world_camera;
+  // Where the camera was when the depth image was taken, if its own stamp says so; none: as T_world_camera.
+  std::optional<SE3> T_world_depth;
 };
 
 /// What a layout's reader finds. Poses are as stored.

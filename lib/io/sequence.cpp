@@ -121,6 +121,7 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
   if (index.camera.fy_sign < 0 && !options.as_stored) {
     for (FrameFiles& f : index.frames) {
       if (f.T_world_camera) f.T_world_camera = reflected(*f.T_world_camera);
+      if (f.T_world_depth) f.T_world_depth = reflected(*f.T_world_depth);
     }
     for (StampedPose& pose : index.truth) pose.T_world_camera = reflected(pose.T_world_camera);
   }
@@ -152,6 +153,10 @@ std::string Sequence::time_text(std::size_t i) const {
 }
 
 std::optional<SE3> Sequence::T_world_camera(std::size_t i) const { return data_->frame(i).T_world_camera; }
+std::optional<SE3> Sequence::T_world_depth(std::size_t i) const {
+  const FrameFiles& f = data_->frame(i);
+  return f.T_world_depth ? f.T_world_depth : f.T_world_camera;
+}
 
 ColorImage Sequence::color(std::size_t i) const {
   const FrameFiles& files = data_->frame(i);

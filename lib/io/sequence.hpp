@@ -69,6 +69,9 @@ class Sequence {
   /// The time as the list wrote it, else with 6 decimals.
   std::string time_text(std::size_t i) const;
   std::optional<SE3> T_world_camera(std::size_t i) const;
+  /// The same at the moment of the frame's depth image: sensors that take colour and depth in turn (TUM) stamp them up
+  /// to 20 ms apart, centimetres at the edge of a fast turn. Equal to T_world_camera(i) where there is one stamp only.
+  std::optional<SE3> T_world_depth(std::size_t i) const;
   /// Every pose that the data set gives, at its own rate, reflected like T_world_camera.
   const Trajectory& truth() const;
 
