@@ -106,10 +106,13 @@ CameraFile read_replica_camera(const std::string& file) {
   if (json.is_discarded() || !json.is_object()) throw InputError(file, "is not JSON");
   if (!json.contains("camera") || !json["camera"].is_object()) throw InputError(file, "camera", "is missing");
   const nlohmann::json& camera = json["camera"];
-  const CameraFile read =
-      published_camera(json_size(file, camera, "w"), json_size(file, camera, "h"), json_number(file, camera, "fx"),
-                       json_number(file, camera, "fy"), json_number(file, camera, "cx"),
-                       json_number(file, camera, "cy"), json_number(file, camera, "scale"));
+  const int width = json_size(file, camera, "w");
+  const int height = json_size(file, camera, "h");
+  const double fx = json_number(file, camera, "fx");
+  const double fy = json_number(file, camera, "fy");
+  const double cx = json_number(file, camera, "cx");
+  const double cy = json_number(file, camera, "cy");
+  const CameraFile read = published_camera(width, height, fx, fy, cx, cy, json_number(file, camera, "scale"));
   try {
     read.camera.check();
   } catch (const InputError& e) {

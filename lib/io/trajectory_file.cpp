@@ -145,11 +145,11 @@ Trajectory pose_a_line(const Lines& lines) {
 }
 
 // A pose starts every `lines_a_pose` lines.
-void require_ascending(const Lines& lines, std::size_t lines_a_pose, const Trajectory& trajectory) {
+void require_order(const Lines& lines, std::size_t lines_a_pose, const Trajectory& trajectory) {
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    if (!(trajectory[i].time > trajectory[i - 1].time)) {
+    if (!(trajectory[i].time >= trajectory[i - 1].time)) {
       lines.fail(lines.all()[i * lines_a_pose],
-                 "time " + trajectory[i].stamp() + " is not after " + trajectory[i - 1].stamp());
+                 "time " + trajectory[i].stamp() + " is before " + trajectory[i - 1].stamp());
     }
   }
 }
@@ -164,7 +164,7 @@ void set_times(const std::string& times_path, Trajectory& trajectory) {
     trajectory[i].time = lines.all()[i].values[0];
     trajectory[i].time_text = lines.all()[i].first;
   }
-  require_ascending(lines, 1, trajectory);
+  require_order(lines, 1, trajectory);
 }
 
 }  // namespace
@@ -176,7 +176,7 @@ Trajectory parse_trajectory(const std::string& name, const std::string& text) {
   const bool log = first == 3;
   const bool rows = first == 4;
   Trajectory trajectory = log ? redwood_log(lines) : rows ? pose_in_three_rows(lines) : pose_a_line(lines);
-  require_ascending(lines, log ? 5 : rows ? 3 : 1, trajectory);
+  require_order(lines, log ? 5 : rows ? 3 : 1, trajectory);
   return trajectory;
 }
 

@@ -8,7 +8,7 @@
 
 namespace odosplat {
 
-/// Poses of a file, T_world_camera, in ascending order of time. The format is told by the number of values a line:
+/// Poses of a file, T_world_camera, in order of time. Two poses may have one stamp: public ground truth has such lines. The format is told by the number of values a line:
 ///   8   TUM: time tx ty tz qx qy qz qw (quaternions need not be of unit length)
 ///   12  KITTI: the upper 3x4 of the matrix, row by row; the times are in `times_path`, one a line, or 0, 1, 2, ...
 ///   16  a whole 4x4 matrix a line (Replica), times as for 12
@@ -16,7 +16,7 @@ namespace odosplat {
 ///   3 then 4 x 4   Redwood's log: "i j k" and four rows of four; time = i
 /// Lines that start with # and empty lines are skipped; values are separated by blanks, tabs or commas.
 /// Throws InputError(file, "line N", fault): a value that is no number, NaN or infinite, too few or too many values, a
-/// quaternion of length zero, a matrix that is no rotation, a time that does not grow. A file without poses:
+/// quaternion of length zero, a matrix that is no rotation, a time that goes back. A file without poses:
 /// InputError.
 Trajectory read_trajectory(const std::string& path, const std::string& times_path = "");
 /// The same from text; `name` stands for the file in errors.

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "fuzz/entries.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
+#include "odosplat/io/camera_file.hpp"
+#include "odosplat/io/cloud_file.hpp"
+#include "odosplat/io/layouts.hpp"
+#include "odosplat/io/list_file.hpp"
+#include "odosplat/io/natural_order.hpp"
+#include "odosplat/io/trajectory_file.hpp"
+#include "odosplat/io/undistort.hpp"
+
+namespace odosplat::fuzz {
+namespace {
+
+void demand(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "contract broken: %s\n", what);
+  std::abort();
+}
+
+template <typename Read>
+void read_or_refuse(Read read) {
+  try {
+    read();
+  } catch (const InputError& e) {
+    demand(std::string(e.what()).find('\n') == std::string::npos, "an error has one line");
+  }
+}
+
+void demand_order(const Trajectory& trajectory) {
+  demand(!trajectory.empty(), "a trajectory has poses");
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    demand(trajectory[i].T_world_camera.is_finite(), "poses are finite");
+    demand(i == 0 || trajectory[i].time >= trajectory[i - 1].time, "times do not go back");
+  }
+}
+
+}  // namespace
+
+void ply(const std::string& bytes) {
+  set_log_level("off");
+  read_or_refuse([&] {
+    const Ply parsed = parse_ply("fuzz", bytes);
+    for (const PlyElement& element : parsed.elements) {
+      for (const PlyProperty& property : element.properties) {
+        const std::size_t rows = std::visit([](const auto& v) { return v.size(); }, property.values);
+        demand(rows == element.count, "a column has as many rows as its element");
+      }
+    }
+    const PointCloud cloud = point_cloud_from_ply(parsed);
+    demand(cloud.size() > 0, "a cloud has points");
+    for (const Eigen::Vector3f& p : cloud.points) demand(p.allFinite(), "points are finite");
+    for (const Eigen::Vector3f& c : cloud.colors) demand(c.minCoeff() >= 0.0F && c.maxCoeff() <= 1.0F, "colours 0..1");
+    for (const Eigen::Vector3f& n : cloud.normals) demand(n.norm() > 0.99F && n.norm() < 1.01F, "normals are unit");
+  });
+}
+
+void trajectory(const std::string& bytes) {
+  read_or_refuse([&] { demand_order(parse_trajectory("fuzz", bytes)); });
+  read_or_refuse([&] { demand(parse_pose_matrix("fuzz", bytes).is_finite(), "poses are finite"); });
+}
+
+void camera_file(const std::string& bytes) {
+  read_or_refuse([&] {
+    CameraFile file = parse_camera_file("fuzz", bytes);
+    file.camera.check();
+    demand(file.fy_sign == 1 || file.fy_sign == -1, "fy has a sign");
+    demand(file.depth_scale > 0.0, "depth_scale is positive");
+    if (file.camera.width * file.camera.height > 10000) return;
+    const Undistorter undistorter(file.camera, file.distortion);
+    undistorter.depth(DepthImage(file.camera.height, file.camera.width, 1.0F));
+    undistorter.color(ColorImage(file.camera.height, file.camera.width, cv::Vec3f(1.0F, 1.0F, 1.0F)));
+  });
+}
+
+void sequence_lists(const std::string& bytes) {
+  read_or_refuse([&] {
+    std::vector<double> times;
+    for (const ListedImage& image : parse_image_list("fuzz", bytes)) {
+      demand(!image.path.empty(), "an image has a path");
+      demand(times.empty() || image.time > times.back(), "times grow");
+      times.push_back(image.time);
+      demand(!natural_less(image.path, image.path), "the order is strict");
+      demand(number_in(image.path) >= -1, "numbers are not negative");
+    }
+    if (times.size() < 200) demand(associate_by_time(times, times, 0.0).size() == times.size(), "all find themselves");
+  });
+  read_or_refuse([&] {
+    for (const ListedPair& pair : parse_pair_list("fuzz", bytes)) {
+      demand(!pair.color_path.empty() && !pair.depth_path.empty(), "a pair has two paths");
+    }
+  });
+}
+
+}  // namespace odosplat::fuzz
