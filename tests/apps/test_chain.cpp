@@ -51,7 +51,8 @@ class Chain : public testing::Test {
     return out;
   }
   double ate(const std::string& run) {
-    must_run({"eval", run + "/trajectory.txt", "--truth", sequence_ + "/groundtruth.txt", "--json", run + "/eval.json"});
+    must_run(
+        {"eval", run + "/trajectory.txt", "--truth", sequence_ + "/groundtruth.txt", "--json", run + "/eval.json"});
     const auto json = nlohmann::json::parse(read_text(run + "/eval.json"));
     EXPECT_EQ(json["pairs"], frames);
     EXPECT_EQ(json["coverage"], 1.0);

@@ -25,9 +25,12 @@ TEST(Program, HelpAndVersionSucceed) {
 }
 
 TEST(Program, BadUsageIsOneLineAndExit2) {
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{}, {"fly"}, {"devices", "--nonsense"}, {"devices", "--threads", "-3"},
-        {"devices", "--log", "loud"}, {"eval", "a.txt"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{},
+                                                {"fly"},
+                                                {"devices", "--nonsense"},
+                                                {"devices", "--threads", "-3"},
+                                                {"devices", "--log", "loud"},
+                                                {"eval", "a.txt"}}) {
     const RunResult result = run_odosplat(words);
     EXPECT_EQ(result.status, 2);
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;

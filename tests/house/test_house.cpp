@@ -36,16 +36,14 @@ const std::map<std::string, Room> house{
       {"Eigen", "opencv2/core", "opencv2/imgproc", "opencv2/imgcodecs", "opencv2/videoio", "yaml-cpp", "nlohmann",
        "spdlog"}}},
     {"map", {"lib/map", {"core"}, {"Eigen", "opencv2/core", "opencv2/imgproc", "nanoflann"}}},
-    {"splat",
-     {"lib/splat", {"core", "compute", "map", "kernels", "io"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
+    {"splat", {"lib/splat", {"core", "compute", "map", "kernels", "io"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
     {"odometry",
      {"lib/odometry",
       {"core", "map"},
       {"Eigen", "opencv2/core", "opencv2/imgproc", "opencv2/features2d", "opencv2/calib3d", "ceres"}}},
     {"eval", {"lib/eval", {"core"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
     {"synth", {"lib/synth", {"core", "map"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
-    {"viewer",
-     {"viewer", {"core", "map", "eval"}, {"Eigen", "opencv2/core", "opencv2/imgproc", "vtk", "EGL", "GL"}}},
+    {"viewer", {"viewer", {"core", "map", "eval"}, {"Eigen", "opencv2/core", "opencv2/imgproc", "vtk", "EGL", "GL"}}},
 };
 
 std::string text_of(const fs::path& file) {
@@ -71,7 +69,8 @@ std::vector<std::string> includes_of(const std::string& text) {
 
 // "" for the standard library and POSIX, else the library's name as the table has it.
 std::string library_of(const std::string& include) {
-  static const std::regex foreign(R"re((Eigen|opencv2/\w+|ceres|CL|EGL|GL|spdlog|yaml-cpp|nlohmann|tbb|CLI|gtest|gmock)[/.].*)re");
+  static const std::regex foreign(
+      R"re((Eigen|opencv2/\w+|ceres|CL|EGL|GL|spdlog|yaml-cpp|nlohmann|tbb|CLI|gtest|gmock)[/.].*)re");
   std::smatch match;
   if (std::regex_match(include, match, foreign)) return match[1];
   if (include.rfind("nanoflann", 0) == 0) return "nanoflann";
@@ -114,7 +113,7 @@ TEST(House, LinksKeepToTheTable) {
 
 TEST(House, EveryFolderOfLibIsInTheTable) {
   for (const auto& entry : fs::directory_iterator(root / "lib")) {
-    if (entry.is_directory()) EXPECT_EQ(house.count(entry.path().filename()), 1U) << entry.path();
+    EXPECT_TRUE(!entry.is_directory() || house.count(entry.path().filename()) == 1) << entry.path();
   }
 }
 
