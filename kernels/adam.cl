@@ -30,3 +30,14 @@ __kernel void adam_step(__global float* restrict parameters, const __global floa
     parameters[i + k] -= rate * rates[k] * (m * inverse_bias1) / (sqrt(v) * inverse_bias2 + epsilon);
   }
 }
+
+/* parameters [n] are held at or below bound [n]. A work-item does 16 elements. */
+__kernel void limit_above(__global float* restrict parameters, const __global float* restrict bound, uint n) {
+  const uint i = (uint)get_global_id(0) * 16u;
+  if (i >= n) return;
+  if (i + 16u <= n) {
+    vstore16(fmin(vload16(0, parameters + i), vload16(0, bound + i)), 0, parameters + i);
+    return;
+  }
+  for (uint k = i; k < n; ++k) parameters[k] = fmin(parameters[k], bound[k]);
+}

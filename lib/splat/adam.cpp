@@ -23,7 +23,9 @@ void AdamOptions::check() const {
 Adam::Adam(const compute::Context& context, const AdamOptions& options, int stride, int head, float rest_ratio)
     : options_((options.check(), options)),
       context_(context),
-      kernel_(compute::Program(context, {"adam.cl"}).kernel("adam_step")),
+      program_(context, {"adam.cl"}),
+      step_kernel_(program_.kernel("adam_step")),
+      limit_kernel_(program_.kernel("limit_above")),
       stride_(stride) {
   require(stride >= 1, "stride", "at least 1");
   require(head >= 0 && head <= stride, "head", "in 0..stride");
@@ -46,10 +48,16 @@ void Adam::step(compute::Buffer<float>& parameters, const compute::Buffer<float>
   const double t = static_cast<double>(steps_);
   const double bias1 = 1.0 - std::pow(static_cast<double>(options_.beta1), t);
   const double bias2 = 1.0 - std::pow(static_cast<double>(options_.beta2), t);
-  kernel_(compute::Range::linear((parameters.size() + lanes - 1) / lanes, 16), parameters, gradients, first_, second_,
-          pattern_, static_cast<std::uint32_t>(parameters.size()), static_cast<std::uint32_t>(stride_),
-          static_cast<float>(rate), options_.beta1, options_.beta2, static_cast<float>(1.0 / bias1),
-          static_cast<float>(1.0 / std::sqrt(bias2)), options_.epsilon);
+  step_kernel_(compute::Range::linear((parameters.size() + lanes - 1) / lanes, 16), parameters, gradients, first_,
+               second_, pattern_, static_cast<std::uint32_t>(parameters.size()), static_cast<std::uint32_t>(stride_),
+               static_cast<float>(rate), options_.beta1, options_.beta2, static_cast<float>(1.0 / bias1),
+               static_cast<float>(1.0 / std::sqrt(bias2)), options_.epsilon);
+}
+
+void Adam::limit(compute::Buffer<float>& parameters, const compute::Buffer<float>& bound) {
+  require(bound.size() == parameters.size(), "bound", "as large as the parameters");
+  limit_kernel_(compute::Range::linear((parameters.size() + lanes - 1) / lanes, 16), parameters, bound,
+                static_cast<std::uint32_t>(parameters.size()));
 }
 
 }  // namespace odosplat

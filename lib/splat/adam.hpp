@@ -27,12 +27,15 @@ class Adam {
 
   /// parameters -= step; gradients of the same size. Moments start at zero whenever the size changes.
   void step(compute::Buffer<float>& parameters, const compute::Buffer<float>& gradients, double rate);
+  /// Holds parameters at or below bound, element by element (same size). Queued.
+  void limit(compute::Buffer<float>& parameters, const compute::Buffer<float>& bound);
   long steps() const { return steps_; }
 
  private:
   AdamOptions options_;
   compute::Context context_;
-  compute::Kernel kernel_;
+  compute::Program program_;
+  compute::Kernel step_kernel_, limit_kernel_;
   int stride_;
   compute::Buffer<float> pattern_, first_, second_;
   long steps_ = 0;

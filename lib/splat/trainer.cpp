@@ -71,6 +71,7 @@ void TrainerOptions::check() const {
   require_rate(sh_rate, "sh_rate");
   require(color_rate > 0.0 || sh_rate == 0.0, "sh_rate", "0 where color_rate is");
   require(final_share > 0.0 && final_share <= 1.0, "final_share", "above 0, at most 1");
+  require(largest_growth == 0.0 || largest_growth >= 1.0, "largest_growth", "0 or at least 1");
   loss.check();
   adam.check();
   rasterizer.check();
@@ -97,6 +98,7 @@ std::vector<std::string> TrainerOptions::describe() const {
   add("color_rate", color_rate);
   add("sh_rate", sh_rate);
   add("final_share", final_share);
+  add("largest_growth", largest_growth);
   add("keep_thickness", keep_thickness ? 1 : 0);
   add("ssim_weight", loss.ssim_weight);
   add("color_term", loss.color_term == ColorTerm::l1 ? "l1" : "squared_l2");
@@ -123,6 +125,7 @@ TrainerOptions TrainerOptions::preset(const std::string& name) {
   options.sh_rate = 1.25e-4;
   options.final_share = 1.0;
   options.keep_thickness = false;
+  options.largest_growth = 0.0;
   return options;
 }
 
@@ -144,6 +147,11 @@ Trainer::Trainer(const compute::Context& context, const TrainerOptions& options,
       psnr_db_(static_cast<std::size_t>(views.count()), 0.0),
       psnr_known_(static_cast<std::size_t>(views.count()), false) {
   gaussians_.upload(context_, initial);
+  if (options_.largest_growth > 0.0) {
+    std::vector<float> bound = initial.log_scales;
+    for (float& log_scale : bound) log_scale += static_cast<float>(std::log(options_.largest_growth));
+    largest_log_scales_ = compute::Buffer<float>(context_, bound);
+  }
 }
 
 int Trainer::level_at(int iteration) const {
@@ -232,6 +240,7 @@ void Trainer::update() {
     positions_.step(gaussians_.positions, gradients_.positions,
                     position_length_ * log_linear(options_.position_rate, options_.position_rate_final, share));
   log_scales_.step(gaussians_.log_scales, gradients_.log_scales, fade * options_.scale_rate);
+  if (!largest_log_scales_.empty()) log_scales_.limit(gaussians_.log_scales, largest_log_scales_);
   if (options_.rotation_rate > 0.0)
     rotations_.step(gaussians_.rotations, gradients_.rotations, fade * options_.rotation_rate);
   opacity_logits_.step(gaussians_.opacity_logits, gradients_.opacity_logits, fade * options_.opacity_rate);

@@ -37,23 +37,25 @@ enum class PositionLength {
 };
 
 struct TrainerOptions {
-  int iterations = 3000;  // steps, one image each, >= 0
+  int iterations = 2000;  // steps, one image each, >= 0
   std::uint64_t seed = 42;
   int coarse_levels = 1;      // image levels, each half the size, that training starts on, 0..4; 0: full size only
   float coarse_share = 0.2F;  // share of the iterations on levels above 0, split evenly, 0..1
-  int sh_interval = 500;      // steps from one degree of spherical harmonics to the next, >= 0; 0: all from the start
+  int sh_interval = 400;      // steps from one degree of spherical harmonics to the next, >= 0; 0: all from the start
 
   PositionLength position_length = PositionLength::gaussian_size;
   // Adam rates a step at the start. Those not given in units are of the attribute as it is stored.
   double position_rate = 2e-3;        // [position lengths]
   double position_rate_final = 2e-5;  // [position lengths] reached log-linearly at the last step
-  double scale_rate = 1e-2;           // of log scales
+  double scale_rate = 5e-3;           // of log scales
   double rotation_rate = 0.0;         // of quaternions; discs that tilt lift depth towards the camera
-  double opacity_rate = 5e-2;         // of opacity logits
+  double opacity_rate = 2e-2;         // of opacity logits
   double color_rate = 1e-2;           // of SH of degree 0
   double sh_rate = 5e-4;              // of the other SH
   double final_share = 0.1;           // all rates but that of positions fall log-linearly to this share of theirs, 0..1
   bool keep_thickness = true;         // the third axis (of discs: across the surface) is left as it is
+
+  double largest_growth = 1.5;  // no axis grows beyond this many times its start (silhouettes), >= 1; 0: no limit
 
   LossOptions loss;
   AdamOptions adam;
@@ -124,6 +126,7 @@ class Trainer {
 
   RenderOutput rendered_;
   OutputGradients image_gradients_;
+  compute::Buffer<float> largest_log_scales_;  // empty: no limit
   compute::Buffer<float> target_;
   std::vector<float> planes_;
   Camera camera_;  // of the target

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -161,6 +162,21 @@ TEST(Trainer, KeepsThicknessOfDiscs) {
     moved = moved || trained.log_scales[3 * i] != initial.log_scales[3 * i];
   }
   EXPECT_TRUE(moved);
+}
+
+TEST(Trainer, GrowthIsLimited) {
+  CornerViews views(2);
+  const Gaussians initial = grey_corner(0.1);
+  TrainerOptions options = short_options(40);
+  options.scale_rate = 5e-2;
+  options.largest_growth = 1.2;
+  Trainer trainer(compute::Context::open(), options, initial, views);
+  while (!trainer.done()) trainer.step();
+  const Gaussians trained = trainer.gaussians();
+  float most = 0.0F;
+  for (std::size_t i = 0; i < initial.log_scales.size(); ++i)
+    most = std::max(most, trained.log_scales[i] - initial.log_scales[i]);
+  EXPECT_NEAR(most, std::log(1.2F), 1e-6F);  // reached, not passed
 }
 
 TEST(Trainer, PaperPresetTrains) {
