@@ -8,38 +8,12 @@
 
 #include <array>
 #include <cstdio>
-#include <map>
-#include <mutex>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
 namespace odosplat {
 namespace {
-
-// eglInitialize does not count: the first eglTerminate would end the display under every other context of the process.
-class DisplayCounts {
- public:
-  bool acquire(EGLDisplay display) {
-    const std::lock_guard lock(mutex_);
-    if (counts_[display] == 0 && eglInitialize(display, nullptr, nullptr) == EGL_FALSE) return false;
-    ++counts_[display];
-    return true;
-  }
-  void release(EGLDisplay display) {
-    const std::lock_guard lock(mutex_);
-    if (--counts_[display] == 0) eglTerminate(display);
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<EGLDisplay, int> counts_;
-};
-
-DisplayCounts& displays() {
-  static DisplayCounts counts;
-  return counts;
-}
 
 bool has_extension(const char* list, std::string_view name) {
   const std::string_view text = list != nullptr ? list : "";
@@ -105,12 +79,13 @@ EglContext::~EglContext() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroySurface(display_, surface_);
   eglDestroyContext(display_, context_);
-  displays().release(display_);
+  // The display stays initialised for the rest of the process: eglTerminate does not count its users, and Mesa loses a
+  // little memory each time it unloads its driver.
   eglReleaseThread();
 }
 
 bool EglContext::try_display(void* display, const std::string& platform, std::string& faults) {
-  if (display == EGL_NO_DISPLAY || !displays().acquire(display)) {
+  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
     faults += "; " + platform + ": no display (EGL error " + egl_error() + ")";
     return false;
   }
@@ -152,7 +127,6 @@ bool EglContext::try_display(void* display, const std::string& platform, std::st
     faults += "; " + platform + ": " + fault + " (EGL error " + egl_error() + ")";
     if (surface != EGL_NO_SURFACE) eglDestroySurface(display, surface);
     if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-    displays().release(display);
     return false;
   }
   display_ = display;
