@@ -46,7 +46,7 @@ Similarity align_points(const std::vector<Eigen::Vector3d>& source, const std::v
     source_variance += s.squaredNorm();
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d singular = svd.singularValues();
+  const Eigen::Vector3d& singular = svd.singularValues();
   if (!(singular[1] > 1e-10 * singular[0]) || !(singular[0] > 0.0)) {
     throw InputError("alignment", "the positions are at one place or on a line, which leaves the rotation open");
   }

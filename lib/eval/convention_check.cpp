@@ -133,8 +133,8 @@ PairError reproject(const ConventionInput& input, const Pair& pair, const std::v
           pixel.y() < depth_to.rows - 0.5)) {
       continue;
     }
-    const double there =
-        metres * static_cast<double>(depth_to(static_cast<int>(pixel.y() + 0.5), static_cast<int>(pixel.x() + 0.5)));
+    const double there = metres * static_cast<double>(depth_to(static_cast<int>(std::floor(pixel.y() + 0.5)),
+                                                               static_cast<int>(std::floor(pixel.x() + 0.5))));
     if (!(there > 0.0) || !std::isfinite(there)) continue;
     absolute.push_back(std::abs(p_to.z() - there));
     relative.push_back(absolute.back() / there);

@@ -59,7 +59,7 @@ std::vector<ProjectedPoint> project_points(const PointCloud& cloud, const std::v
                                            double reach) {
   const SE3 T_camera_world = T_world_camera.inverse();
   const Eigen::Matrix3d R = T_camera_world.rotation_matrix();
-  const Eigen::Vector3d t = T_camera_world.translation();
+  const Eigen::Vector3d& t = T_camera_world.translation();
   const Eigen::Matrix3f Rf = R.cast<float>();
   const int n = static_cast<int>(cloud.size());
   std::vector<std::vector<ProjectedPoint>> chunks(static_cast<std::size_t>((n + points_a_chunk - 1) / points_a_chunk));
@@ -130,7 +130,7 @@ PointGrid::PointGrid(const std::vector<ProjectedPoint>& points, const Camera& ca
   cell_ = std::clamp(std::sqrt(2.0F * a_point), 1.0F, 8.0F);
   columns_ = static_cast<int>(std::ceil(static_cast<float>(width) / cell_));
   rows_ = static_cast<int>(std::ceil(static_cast<float>(height) / cell_));
-  begins_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+  begins_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   std::vector<int> cells(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     cells[i] = row(points[i].v) * columns_ + column(points[i].u);

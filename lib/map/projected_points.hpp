@@ -84,7 +84,7 @@ PointGrid::Found PointGrid::nearest(float x, float y, float radius, const Accept
   const float to_border = std::min(std::min(left, cell_ - left), std::min(top, cell_ - top));
   float limit = radius * radius;
   const auto visit = [&](int c, int r) {
-    const auto cell = static_cast<std::size_t>(r * columns_ + c);
+    const auto cell = static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
     for (int k = begins_[cell]; k < begins_[cell + 1]; ++k) {
       const int candidate = order_[static_cast<std::size_t>(k)];
       const ProjectedPoint& p = points_[static_cast<std::size_t>(candidate)];
