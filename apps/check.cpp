@@ -42,7 +42,9 @@ void run(SequenceFlags flags, const ConventionOptions& options) {
   const ConventionReport report = check_conventions(frames.input, options);
   std::printf("%s: layout %s, %zu images, %zu with depth, %dx%d\n", sequence.name().c_str(), sequence.layout().c_str(),
               sequence.size(), frames.frames.size(), sequence.camera().width, sequence.camera().height);
-  std::printf("depth of one image reprojected into another %d frames on, %d pairs\n", report.gap, report.pairs);
+  const std::string gap =
+      std::to_string(report.gap) + (report.max_gap > report.gap ? " to " + std::to_string(report.max_gap) : "");
+  std::printf("depth of one image reprojected into another %s frames on, %d pairs\n", gap.c_str(), report.pairs);
   std::printf("%s", convention_table(report, sequence.camera()).c_str());
   std::printf("%s\n", report.verdict.c_str());
 }

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/io/trajectory_file.hpp"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -75,7 +76,9 @@ SE3 pose_from_rows(const Lines& lines, const Line& line, const std::vector<doubl
   if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-2 || R.determinant() < 0.0) {
     lines.fail(line, "the matrix is no rotation");
   }
-  return {R, Eigen::Vector3d(v[3], v[7], v[11])};
+  // The nearest rotation: a quaternion taken from the rounded matrix would be 1e-6 degrees off.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()), Eigen::Vector3d(v[3], v[7], v[11])};
 }
 
 StampedPose tum_pose(const Lines& lines, const Line& line) {
