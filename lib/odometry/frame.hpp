@@ -36,22 +36,31 @@ struct FramePyramid {
 FramePyramid build_frame_pyramid(const Camera& camera, const GrayImage& gray);
 
 /// Per pixel: grey value, d/du, d/dv [1/px] by central differences, squared gradient norm. The outermost pixels have
-/// gradient 0. Four channels, so that one pixel is one SIMD register.
+/// gradient 0. Interleaved, so that one pixel's values lie together.
 using GradientImage = cv::Mat4f;
 GradientImage build_gradient(const GrayImage& gray);
 std::vector<GradientImage> build_gradients(const FramePyramid& pyramid);
 
-/// Bilinear value of all four channels; the caller makes sure that 0 <= u < cols - 1 and 0 <= v < rows - 1.
-inline Eigen::Array4f sample(const GradientImage& image, float u, float v) {
+/// Grey value and gradient between pixels.
+struct GradientSample {
+  float value, gx, gy;
+};
+
+/// Bilinear; the caller makes sure that 0 <= u < cols - 1 and 0 <= v < rows - 1. data and step (in floats) are the
+/// image's: the innermost loop of all does not look them up for every pixel.
+inline GradientSample sample(const float* data, std::ptrdiff_t step, float u, float v) {
   const int x = static_cast<int>(u);
   const int y = static_cast<int>(v);
   const float a = u - static_cast<float>(x);
   const float b = v - static_cast<float>(y);
-  using Pixel = Eigen::Map<const Eigen::Array4f>;
-  const float* r0 = image.ptr<float>(y) + 4 * x;
-  const float* r1 = image.ptr<float>(y + 1) + 4 * x;
-  const float ab = a * b;
-  return (1.0F - a - b + ab) * Pixel(r0) + (a - ab) * Pixel(r0 + 4) + (b - ab) * Pixel(r1) + ab * Pixel(r1 + 4);
+  const float* r0 = data + y * step + 4 * x;
+  const float* r1 = r0 + step;
+  const float w11 = a * b;
+  const float w10 = b - w11;
+  const float w01 = a - w11;
+  const float w00 = 1.0F - a - w10;
+  return {w00 * r0[0] + w01 * r0[4] + w10 * r1[0] + w11 * r1[4], w00 * r0[1] + w01 * r0[5] + w10 * r1[1] + w11 * r1[5],
+          w00 * r0[2] + w01 * r0[6] + w10 * r1[2] + w11 * r1[6]};
 }
 
 }  // namespace odosplat

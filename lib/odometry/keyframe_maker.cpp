@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/keyframe_policy.hpp"
 
 namespace odosplat {
 
@@ -14,6 +15,8 @@ void AnchorOptions::check() const {
   require(min_inliers >= 0.0 && min_inliers <= 1.0, "anchor.min_inliers", "in [0, 1]");
   require(min_coverage >= 0.0 && min_coverage <= 1.0, "anchor.min_coverage", "in [0, 1]");
   require(max_rmse > 0.0, "anchor.max_rmse", "positive");
+  require(render_again_flow > 0.0, "anchor.render_again_flow", "positive");
+  require(reset_flow >= render_again_flow, "anchor.reset_flow", "at least render_again_flow");
 }
 
 void KeyframeMakerOptions::check() const {
@@ -85,6 +88,8 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const FramePyramid& pyramid, 
   anchor.brightness.b = (keyframe.brightness.b - alignment.brightness.b) * std::exp(-alignment.brightness.a);
   const double ratio = options.noise / std::max(options.noise, alignment.rmse);
   anchor.weight = options.strength * ratio * ratio;
+  made.T_world_camera_map = anchor.T_world_view * alignment.T_target_host.inverse();
+  made.map_flow = keyframe_score(reference, alignment, 0.0, {}).full_flow;
   made.anchored = !anchor.points.empty();
 }
 

@@ -13,11 +13,13 @@ namespace odosplat {
 
 struct AnchorOptions {
   bool enabled = true;
-  double noise = 5.0 / 255;      // [grey] residual of a rendered view at which it counts like a real image
-  double strength = 0.5;         // factor of its weight: errors of a rendered image are correlated between neighbours
-  double min_inliers = 0.6;      // share of its points that must agree with the real image
-  double min_coverage = 0.3;     // share of its points that must be in view
-  double max_rmse = 12.0 / 255;  // [grey]
+  double noise = 5.0 / 255;        // [grey] residual of a rendered view at which it counts like a real image
+  double strength = 4.0;           // factor of its weight: one rendered view stands against six keyframes
+  double min_inliers = 0.6;        // share of its points that must agree with the real image
+  double min_coverage = 0.3;       // share of its points that must be in view
+  double max_rmse = 12.0 / 255;    // [grey]
+  double render_again_flow = 2.0;  // [px] a keyframe that the map moves further is rendered from its new place
+  double reset_flow = 4.0;         // [px] beyond, the rest of the window is believed to be wrong and is dropped
 
   void check() const;
 };
@@ -38,7 +40,9 @@ struct MadeKeyframe {
   std::shared_ptr<Keyframe> keyframe;  // null: the map shows too little there
   double map_share = 0.0;              // share of the image with map depth
   bool anchored = false;
-  Alignment anchor;  // of the keyframe's image against the rendered one
+  Alignment anchor;        // of the keyframe's image against the rendered one
+  SE3 T_world_camera_map;  // where that alignment puts the camera, if anchored
+  double map_flow = 0.0;   // [px] root mean square image motion between that and the pose rendered from
 };
 
 /// Turns an image and the map's view from its pose into a keyframe: points with map depth for tracking and for the

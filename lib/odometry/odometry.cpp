@@ -41,6 +41,7 @@ void AcceptOptions::check() const {
   require(min_coverage >= 0.0 && min_coverage <= 1.0, "accept.min_coverage", "in [0, 1]");
   require(min_contrast >= 0.0 && max_contrast > min_contrast, "accept.min_contrast", "in [0, max_contrast)");
   require(retrack >= 1.0, "accept.retrack", "at least 1");
+  require(retrack_outliers >= 0.0, "accept.retrack_outliers", "at least 0");
   require(found_inliers >= 0.0 && found_inliers <= 1.0, "accept.found_inliers", "in [0, 1]");
   require(found_coverage >= 0.0 && found_coverage <= 1.0, "accept.found_coverage", "in [0, 1]");
 }
@@ -119,6 +120,7 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
       result.covariance = adjoint * information.inverse() * adjoint.transpose() + reference_->covariance;
       relative_brightness_ = alignment.brightness;
       last_rmse_ = alignment.rmse;
+      last_inlier_share_ = alignment.inlier_share;
       const double first_rmse = first_rmse_;
       if (first_rmse_ <= 0.0) first_rmse_ = std::max(alignment.rmse, 1.0 / 255);
       const KeyframeScore score = keyframe_score(reference_->reference, alignment, first_rmse, options_.policy);
@@ -155,19 +157,34 @@ Alignment Odometry::track_against_newest(const FramePyramid& pyramid, double tim
     return poses;
   };
   const auto guesses = relative(motion_guesses(history_, time, T_world_host));
+  const TrackingReference& reference = reference_->reference;
   const int top = pyramid.levels() - 1;
-  Alignment best = tracker_.align(reference_->reference, pyramid, guesses.front(), relative_brightness_, top, 0);
-  const double limit = options_.accept.retrack * std::max(last_rmse_, 2.0 / 255);
-  if (believed(best, false) && (last_rmse_ <= 0.0 || best.rmse <= limit)) return best;
+  Alignment best = tracker_.align(reference, pyramid, guesses.front(), relative_brightness_, top, 0);
+  if (believed(best, false) && as_good_as_last(best)) return best;
+
+  const auto worth = [](const Alignment& a) { return a.finished ? a.inlier_share * a.coverage - a.rmse : -1.0; };
+  const auto offer = [&](const Alignment& other) {
+    if (worth(other) > worth(best)) best = other;
+  };
+  // Repeated patterns lead coarse levels astray where the prediction itself was close: start lower.
+  for (int level = std::min(2, top - 1); level >= 0; --level) {
+    offer(tracker_.align(reference, pyramid, guesses.front(), relative_brightness_, level, 0));
+  }
+  if (believed(best, false) && as_good_as_last(best)) return best;
   auto more = guesses;
   for (const double angle : {0.02, 0.05}) {
     const auto turned = relative(rotated_guesses(predict(history_, time), angle));
     more.insert(more.end(), turned.begin(), turned.end());
   }
-  const Alignment other = tracker_.align_best(reference_->reference, pyramid, more, relative_brightness_);
-  const auto worth = [](const Alignment& a) { return a.finished ? a.inlier_share * a.coverage - a.rmse : -1.0; };
-  if (worth(other) > worth(best)) best = other;
+  offer(tracker_.align_best(reference, pyramid, more, relative_brightness_));
   return best;
+}
+
+bool Odometry::as_good_as_last(const Alignment& a) const {
+  if (last_rmse_ <= 0.0) return true;
+  const AcceptOptions& accept = options_.accept;
+  return a.rmse <= accept.retrack * std::max(last_rmse_, 2.0 / 255) &&
+         1.0 - a.inlier_share <= accept.retrack * (1.0 - last_inlier_share_) + accept.retrack_outliers;
 }
 
 Alignment Odometry::search_window(const FramePyramid& pyramid) {
@@ -202,34 +219,49 @@ bool Odometry::believed(const Alignment& a, bool was_lost) const {
 
 bool Odometry::add_keyframe(const FramePyramid& pyramid, double time, const SE3& T_world_camera,
                             const Brightness& brightness, TrackResult& result) {
-  ViewImages view;
-  {
-    const StageTimer timer(statistics_.stages[stage_render]);
-    view = map_.render(camera_, T_world_camera, {options_.keyframe.anchor.enabled, true});
-  }
+  const AnchorOptions& anchor = options_.keyframe.anchor;
+  SE3 T_world_keyframe = T_world_camera;
   MadeKeyframe made;
-  {
+  double corrected = 0.0;
+  // Seen from where the map says the camera is, if that is elsewhere: depth and colour must belong to the pixel.
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    ViewImages view;
+    {
+      const StageTimer timer(statistics_.stages[stage_render]);
+      view = map_.render(camera_, T_world_keyframe, {anchor.enabled, true});
+    }
     const StageTimer timer(statistics_.stages[stage_keyframe]);
-    made = maker_.make(pyramid, view, T_world_camera, brightness, tracker_);
+    made = maker_.make(pyramid, view, T_world_keyframe, brightness, tracker_);
+    if (!made.anchored) break;
+    corrected = std::max(corrected, made.map_flow);
+    T_world_keyframe = made.T_world_camera_map;
+    if (made.map_flow <= anchor.render_again_flow) break;
   }
   result.map_share = made.map_share;
   if (made.keyframe == nullptr) return false;
   const std::shared_ptr<Keyframe>& keyframe = made.keyframe;
-  keyframe->id = static_cast<int>(keyframe_poses_.size());
+  keyframe->id = static_cast<int>(keyframe_records_.size());
   keyframe->frame = statistics_.frames - 1;
   keyframe->time = time;
+  if (made.anchored) keyframe->T_world_camera = T_world_keyframe;
+  if (made.anchored && corrected > anchor.reset_flow) window_.keyframes.clear();
   const int drop = keyframe_to_drop(window_, camera_, options_.window);
   if (drop >= 0) window_.keyframes.erase(window_.keyframes.begin() + drop);
   window_.keyframes.push_back(keyframe);
-  keyframe_poses_.push_back(T_world_camera);
+  KeyframeRecord record{time, keyframe->T_world_camera, -1, {}};
+  // The frame's own record moves over to its keyframe: its pose is the keyframe's from now on.
+  if (reference_ != nullptr && !records_.empty() && records_.back().time == time) {
+    record.previous = records_.back().keyframe;
+    record.T_previous_camera = records_.back().T_keyframe_camera;
+    records_.pop_back();
+  }
+  records_.push_back({time, keyframe->id, SE3()});
+  keyframe_records_.push_back(record);
   optimise();
 
   reference_ = keyframe;
   relative_brightness_ = {};
   first_rmse_ = 0.0;
-  // The frame's own record moves over to its keyframe: its pose is the keyframe's from now on.
-  if (!records_.empty() && records_.back().time == time) records_.pop_back();
-  records_.push_back({time, keyframe->id, SE3()});
   result.T_world_camera = keyframe->T_world_camera;
   result.keyframe = true;
   result.anchored = made.anchored;
@@ -242,18 +274,33 @@ void Odometry::optimise() {
   const StageTimer timer(statistics_.stages[stage_optimise]);
   optimizer_.optimize(window_, camera_);
   for (const auto& keyframe : window_.keyframes) {
-    keyframe_poses_[static_cast<std::size_t>(keyframe->id)] = keyframe->T_world_camera;
+    keyframe_records_[static_cast<std::size_t>(keyframe->id)].T_world_camera = keyframe->T_world_camera;
   }
 }
 
-SE3 Odometry::pose_of(const FrameRecord& record) const {
-  return keyframe_poses_[static_cast<std::size_t>(record.keyframe)] * record.T_keyframe_camera;
-}
-
 Trajectory Odometry::trajectory() const {
+  // Keyframe that was tracked against keyframe k, if any: the far end of the frames that belong to k.
+  std::vector<int> next(keyframe_records_.size(), -1);
+  for (std::size_t id = 0; id < keyframe_records_.size(); ++id) {
+    const int previous = keyframe_records_[id].previous;
+    if (previous >= 0) next[static_cast<std::size_t>(previous)] = static_cast<int>(id);
+  }
   Trajectory trajectory;
   trajectory.reserve(records_.size());
-  for (const FrameRecord& record : records_) trajectory.push_back({record.time, pose_of(record), ""});
+  for (const FrameRecord& record : records_) {
+    const KeyframeRecord& host = keyframe_records_[static_cast<std::size_t>(record.keyframe)];
+    SE3 T_world_camera = host.T_world_camera * record.T_keyframe_camera;
+    const int far = next[static_cast<std::size_t>(record.keyframe)];
+    if (far >= 0) {
+      const KeyframeRecord& end = keyframe_records_[static_cast<std::size_t>(far)];
+      const double share = (record.time - host.time) / (end.time - host.time);
+      // The correction is a motion of the camera in its own frame: a small turn must not swing it about the world's
+      // origin.
+      const SE3 correction = (host.T_world_camera * end.T_previous_camera).inverse() * end.T_world_camera;
+      if (share > 0.0 && share < 1.0) T_world_camera = T_world_camera * SE3::exp(share * correction.log());
+    }
+    trajectory.push_back({record.time, T_world_camera, ""});
+  }
   return trajectory;
 }
 

@@ -22,9 +22,10 @@ struct AcceptOptions {
   double min_coverage = 0.25;  // share of the reference's points in view
   double min_contrast = 0.5;   // the image's spread at the points over the expected one: a blank image has none
   double max_contrast = 2.0;
-  double retrack = 1.5;          // residual over the last frame's beyond which other guesses are tried
-  double found_inliers = 0.7;    // as min_inliers, for a camera that was lost
-  double found_coverage = 0.35;  // as min_coverage, for a camera that was lost
+  double retrack = 1.5;            // residual over the last frame's beyond which other guesses are tried
+  double retrack_outliers = 0.05;  // growth of the share of outliers beyond which they are tried, too
+  double found_inliers = 0.7;      // as min_inliers, for a camera that was lost
+  double found_coverage = 0.35;    // as min_coverage, for a camera that was lost
 
   void check() const;
 };
@@ -91,7 +92,8 @@ class Odometry {
   TrackResult track(const GrayImage& image, double time);
 
   /// Final estimate: every posed frame's pose relative to its keyframe, composed with that keyframe's latest pose.
-  /// Lost frames are absent.
+  /// Where the next keyframe's final pose is not where tracking had put it, the difference is spread over the frames
+  /// between the two, so that the path has no step at keyframes. Lost frames are absent.
   Trajectory trajectory() const;
 
   const OdometryStatistics& statistics() const { return statistics_; }
@@ -103,14 +105,21 @@ class Odometry {
     int keyframe;
     SE3 T_keyframe_camera;
   };
+  /// A keyframe's part in trajectory(), kept when it has left the window.
+  struct KeyframeRecord {
+    double time;
+    SE3 T_world_camera;     // latest estimate
+    int previous = -1;      // keyframe it was tracked against; -1: none
+    SE3 T_previous_camera;  // where tracking had put it
+  };
 
   Alignment track_against_newest(const FramePyramid& pyramid, double time);
   Alignment search_window(const FramePyramid& pyramid);
+  bool as_good_as_last(const Alignment& alignment) const;
   bool believed(const Alignment& alignment, bool was_lost) const;
   bool add_keyframe(const FramePyramid& pyramid, double time, const SE3& T_world_camera, const Brightness& brightness,
                     TrackResult& result);
   void optimise();
-  SE3 pose_of(const FrameRecord& record) const;
 
   Camera camera_;
   MapView& map_;
@@ -121,12 +130,13 @@ class Odometry {
   WindowOptimizer optimizer_;
   Window window_;
   std::shared_ptr<Keyframe> reference_;  // tracked against: the newest keyframe, or after a loss another of the window
-  std::vector<SE3> keyframe_poses_;      // T_world_camera by keyframe id, latest estimate
-  std::vector<FrameRecord> records_;     // posed frames
+  std::vector<KeyframeRecord> keyframe_records_;  // by keyframe id
+  std::vector<FrameRecord> records_;              // posed frames
   MotionHistory history_;
   Brightness relative_brightness_;  // of the last frame against reference_
   double first_rmse_ = 0.0;         // of the first frame after the keyframe
   double last_rmse_ = 0.0;
+  double last_inlier_share_ = 1.0;
   bool lost_ = false;
   OdometryStatistics statistics_;
 };

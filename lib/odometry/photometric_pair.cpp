@@ -48,10 +48,13 @@ PairSystem evaluate_pair(const PhotometricPair& pair, const PhotometricOptions& 
   const auto cy = static_cast<float>(camera.cy);
   const float max_u = static_cast<float>(camera.width) - 1.0F - margin;
   const float max_v = static_cast<float>(camera.height) - 1.0F - margin;
+  const float* data = image.ptr<float>();
+  const auto step = static_cast<std::ptrdiff_t>(image.step1());
   double cost = 0.0;
   for (const WindowPoint& point : *pair.points) {
     const double distance = point.plane_world.D - point.plane_world.N.dot(t_wh);
-    const Eigen::Vector3d m = R_wh.transpose() * point.plane_world.N / distance;
+    const Eigen::Vector3d m =
+        options.planes_in_world ? Eigen::Vector3d(R_wh.transpose() * point.plane_world.N / distance) : point.m_host;
     const Eigen::Vector3d ray = camera.ray(point.u, point.v);
     const double q = m.dot(ray);
     // Homography of the plane: p_target ~ base + du col_u + dv col_v.
@@ -97,11 +100,11 @@ PairSystem evaluate_pair(const PhotometricPair& pair, const PhotometricOptions& 
     float limit = 0.0F;
     float squares = 0.0F;
     for (std::size_t k = 0; k < pattern_size; ++k) {
-      const Eigen::Array4f target = sample(image, u[k], v[k]);
-      const float gx = target[1];
-      const float gy = target[2];
+      const GradientSample target = sample(data, step, u[k], v[k]);
+      const float gx = target.gx;
+      const float gy = target.gy;
       const float c = gain * (point.intensity[k] - host_b);
-      const float r = target[0] - target_b - c;
+      const float r = target.value - target_b - c;
       const float by_depth = gx * du_sigma + gy * dv_sigma;
       const float base_weight = point.weight[k] * noise2 / (noise2 + by_depth * by_depth);
       const float size = std::abs(r);
@@ -141,7 +144,8 @@ PairSystem evaluate_pair(const PhotometricPair& pair, const PhotometricOptions& 
     Eigen::Matrix<double, 2, 12> J;
     for (int row = 0; row < 2; ++row) {
       const Eigen::Vector3d g = G.row(row).transpose();
-      const Eigen::Vector3d g_host = g - point.plane_world.N * (direction.dot(g) / facing);
+      Eigen::Vector3d g_host = g;
+      if (options.planes_in_world) g_host -= point.plane_world.N * (direction.dot(g) / facing);
       J.block<1, 3>(row, 0) = g_host.transpose();
       J.block<1, 3>(row, 3) = P.cross(g_host).transpose();
       J.block<1, 3>(row, 6) = -g.transpose();

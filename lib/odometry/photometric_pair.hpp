@@ -16,6 +16,8 @@ struct PhotometricOptions {
   double huber = 9.0 / 255;     // [grey] residuals beyond weigh less
   double outlier = 14.0 / 255;  // [grey] a point whose pattern differs more than this on average counts as occluded
 
+  bool planes_in_world = true;  // false: a point's depth stays what it was when its host was rendered
+
   void check() const;
 };
 

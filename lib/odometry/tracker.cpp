@@ -167,6 +167,16 @@ Alignment Tracker::align(const TrackingReference& reference, const FramePyramid&
     // With a wrong guess most residuals are beyond the cut-off and would pull no longer: widen it then.
     float cutoff = static_cast<float>(options_.cutoff);
     Sums sums = evaluate(points, camera, image, estimate, huber, cutoff);
+    // A coarser level that went astray must not take the finer ones along: the guess gets its chance on every level.
+    if (l < top) {
+      const Estimate guess{T_target_host_guess, brightness_guess};
+      const Sums guess_sums = evaluate(points, camera, image, guess, huber, cutoff);
+      if (guess_sums.in_view >= min_in_view &&
+          guess_sums.cost / guess_sums.in_view < sums.cost / std::max(1, sums.in_view)) {
+        estimate = guess;
+        sums = guess_sums;
+      }
+    }
     for (int widen = 0; widen < 4 && sums.inliers < 0.4 * sums.in_view; ++widen) {
       cutoff *= 2.0F;
       sums = evaluate(points, camera, image, estimate, huber, cutoff);

@@ -36,6 +36,7 @@ std::vector<WindowPoint> make_window_points(const Camera& camera, std::span<cons
     point.u = static_cast<float>(pixel.x);
     point.v = static_cast<float>(pixel.y);
     point.plane_world = world_plane(surface->m_camera, T_world_host);
+    point.m_host = surface->m_camera;
     point.sigma = surface->sigma;
     for (std::size_t k = 0; k < pattern_size; ++k) {
       const float* g = gradient.ptr<float>(pixel.y + pattern[k][1]) + 4 * (pixel.x + pattern[k][0]);
