@@ -42,7 +42,7 @@ std::vector<PlacedTick> place_ticks(const ColorBar& bar, int count, double body,
 /// As many round ticks as can stand side by side.
 std::vector<PlacedTick> fitting_ticks(const ColorBar& bar, double body, double width, int font) {
   for (int count = 6;; --count) {
-    const std::vector<PlacedTick> placed = place_ticks(bar, count, body, width, font);
+    std::vector<PlacedTick> placed = place_ticks(bar, count, body, width, font);
     bool fits = true;
     for (std::size_t i = 0; i + 1 < placed.size(); ++i) {
       const double room = 0.5 * (text_width(placed[i].text, font) + text_width(placed[i + 1].text, font)) + 0.45 * font;

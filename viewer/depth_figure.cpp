@@ -111,7 +111,7 @@ cv::Mat3b draw_depth(const DepthFigure& figure) {
     for (int row = 0; row < rows; ++row) {
       bool bar = false;
       for (int c = 0; c < columns; ++c) {
-        const auto k = static_cast<std::size_t>(row * columns + c);
+        const auto k = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
         bar = bar || (k < panels.size() && panels[k].has_bar);
       }
       height += 1.3 * font + panel_height + (bar ? 0.3 * font + color_bar_height(font) : 0.0) + 0.3 * font;
@@ -148,7 +148,7 @@ cv::Mat3b draw_depth(const DepthFigure& figure) {
   for (int row = 0; row < rows; ++row) {
     bool bar = false;
     for (int c = 0; c < columns; ++c) {
-      const auto k = static_cast<std::size_t>(row * columns + c);
+      const auto k = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
       if (k >= panels.size()) break;
       const Panel& part = panels[k];
       const cv::Point2d corner(left + c * column_step, y + 1.3 * font);

@@ -146,6 +146,7 @@ FigureView view_from_above(const PlanAxes& axes, const std::vector<Eigen::Vector
   view.perspective = false;
   view.T_world_view = SE3(R_world_view, middle(seen));
   std::vector<Eigen::Vector2d> flat;
+  flat.reserve(seen.size());
   const SE3 T_view_world = view.T_world_view.inverse();
   for (const auto& p : seen) flat.emplace_back((T_view_world * p).head<2>());
   fit(flat, margin, view);

@@ -95,6 +95,7 @@ void find_extent(MapScenery& scenery) {
   for (const auto& direction : directions) {
     const auto along = [&](std::size_t i) { return cloud.points[i].cast<double>().dot(direction); };
     std::vector<double> values;
+    values.reserve(candidates.size());
     for (const std::size_t i : candidates) values.push_back(along(i));
     const double low = share_quantile(values, 0.01);
     const double high = share_quantile(values, 0.99);

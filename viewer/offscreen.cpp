@@ -165,7 +165,7 @@ void shrink_into(const unsigned char* rgb, cv::Size tile, cv::Mat3b& picture, cv
         int sum = 0;
         for (int j = 0; j < samples; ++j) {
           const std::ptrdiff_t row = tile.height - 1 - (y * samples + j);
-          for (int i = 0; i < samples; ++i) sum += rgb[3 * (row * tile.width + x * samples + i) + c];
+          for (int i = 0; i < samples; ++i) sum += rgb[3 * (row * tile.width + std::ptrdiff_t{x} * samples + i) + c];
         }
         out[x][c] = static_cast<unsigned char>((sum + samples * samples / 2) / (samples * samples));
       }

@@ -12,7 +12,7 @@ namespace {
 std::string fixed(double value, int decimals) {
   char text[64];
   std::snprintf(text, sizeof(text), "%.*f", std::clamp(decimals, 0, 12), value);
-  const std::string result = text;
+  std::string result = text;
   // A rounded negative number may print as "-0.0".
   if (result.front() == '-' && result.find_first_not_of("-0.") == std::string::npos) return result.substr(1);
   return result;

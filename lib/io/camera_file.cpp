@@ -4,6 +4,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -16,6 +17,13 @@ namespace {
 
 constexpr std::size_t max_size = 1 << 20;
 
+// Text of the file for an error of one line: quoted keys and the parser's messages may hold line ends.
+std::string shown(std::string text) {
+  text.resize(std::min<std::size_t>(text.size(), 80));
+  for (char& c : text) c = static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+  return text;
+}
+
 class Reader {
  public:
   Reader(std::string name, const std::string& text) : name_(std::move(name)) {
@@ -23,7 +31,7 @@ class Reader {
     try {
       root_ = YAML::Load(text);
     } catch (const YAML::Exception& e) {
-      fail("line " + std::to_string(e.mark.line + 1), e.msg);
+      fail("line " + std::to_string(e.mark.line + 1), shown(e.msg));
     }
     if (!root_.IsMap()) fail("content", "is not a list of `key: value` lines");
   }
@@ -57,7 +65,7 @@ class Reader {
   void refuse_unknown(const std::set<std::string>& known) const {
     for (const auto& entry : root_) {
       if (!entry.first.IsScalar()) fail("content", "has a key that is not a word");
-      if (known.count(entry.first.Scalar()) == 0) fail(entry.first.Scalar(), "is not a known key");
+      if (known.count(entry.first.Scalar()) == 0) fail(shown(entry.first.Scalar()), "is not a known key");
     }
   }
 

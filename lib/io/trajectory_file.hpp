@@ -8,7 +8,8 @@
 
 namespace odosplat {
 
-/// Poses of a file, T_world_camera, in order of time. Two poses may have one stamp: public ground truth has such lines. The format is told by the number of values a line:
+/// Poses of a file, T_world_camera, in order of time. Two poses may have one stamp: public ground truth has such lines.
+/// The format is told by the number of values a line:
 ///   8   TUM: time tx ty tz qx qy qz qw (quaternions need not be of unit length)
 ///   12  KITTI: the upper 3x4 of the matrix, row by row; the times are in `times_path`, one a line, or 0, 1, 2, ...
 ///   16  a whole 4x4 matrix a line (Replica), times as for 12

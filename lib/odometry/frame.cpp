@@ -3,6 +3,7 @@
 #include "odosplat/odometry/frame.hpp"
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "odosplat/core/error.hpp"
 
@@ -17,14 +18,20 @@ Brightness compose_brightness(const Brightness& relative, const Brightness& host
   return {host.a + relative.a, relative.b + std::exp(relative.a) * host.b};
 }
 
-FramePyramid build_frame_pyramid(const Camera& camera, const GrayImage& gray) {
+FramePyramid build_frame_pyramid(const Camera& camera, const GrayImage& gray, double smoothing) {
   constexpr int max_levels = 6;
   constexpr int min_side = 30;
   require(gray.cols == camera.width && gray.rows == camera.height, "image",
           std::to_string(camera.width) + "x" + std::to_string(camera.height) + " as the camera says, is " +
               std::to_string(gray.cols) + "x" + std::to_string(gray.rows));
   FramePyramid pyramid;
-  pyramid.gray.push_back(gray);
+  GrayImage full = gray;
+  if (smoothing > 0.0) {
+    GrayImage smooth;
+    cv::GaussianBlur(gray, smooth, cv::Size(5, 5), smoothing, smoothing, cv::BORDER_REPLICATE);
+    full = smooth;
+  }
+  pyramid.gray.push_back(full);
   pyramid.cameras.push_back(camera);
   while (pyramid.levels() < max_levels &&
          std::min(pyramid.gray.back().rows, pyramid.gray.back().cols) / 2 >= min_side) {

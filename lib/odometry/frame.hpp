@@ -32,8 +32,10 @@ struct FramePyramid {
 };
 
 /// Levels are halved while both sides stay at least 30 px, at most 6 of them. gray is shared, not copied; its size must
-/// be the camera's (InputError).
-FramePyramid build_frame_pyramid(const Camera& camera, const GrayImage& gray);
+/// be the camera's (InputError). smoothing [px] >= 0: standard deviation of a Gaussian that level 0 is smoothed with
+/// first; it takes off what aliases, which bilinear interpolation would turn into noise, and makes real and rendered
+/// images more alike.
+FramePyramid build_frame_pyramid(const Camera& camera, const GrayImage& gray, double smoothing = 0.0);
 
 /// Per pixel: grey value, d/du, d/dv [1/px] by central differences, squared gradient norm. The outermost pixels have
 /// gradient 0. Interleaved, so that one pixel's values lie together.

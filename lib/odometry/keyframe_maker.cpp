@@ -25,6 +25,7 @@ void KeyframeMakerOptions::check() const {
   plane.check();
   window_points.check();
   anchor.check();
+  require(smoothing >= 0.0 && smoothing <= 1.5, "keyframe.smoothing", "0 to 1.5 px");
   require(min_points >= 20, "keyframe.min_points", "at least 20");
 }
 
@@ -65,7 +66,7 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const FramePyramid& pyramid, 
                                const Tracker& tracker) {
   const AnchorOptions& options = options_.anchor;
   Keyframe& keyframe = *made.keyframe;
-  const FramePyramid rendered = build_frame_pyramid(pyramid.cameras.front(), to_gray(view.color));
+  const FramePyramid rendered = build_frame_pyramid(pyramid.cameras.front(), to_gray(view.color), options_.smoothing);
   const auto gradients = build_gradients(rendered);
   const TrackingReference reference =
       build_reference(rendered, gradients, view, map_reference_selector_, options_.reference, options_.plane);

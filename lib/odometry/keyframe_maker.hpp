@@ -30,7 +30,8 @@ struct KeyframeMakerOptions {
   MapPlaneOptions plane;
   WindowPointOptions window_points;
   AnchorOptions anchor;
-  int min_points = 100;  // with map depth, on full size; fewer make no keyframe
+  double smoothing = 0.8;  // [px] of all images before use, real and rendered; 0: none
+  int min_points = 100;    // with map depth, on full size; fewer make no keyframe
 
   void check() const;
 };

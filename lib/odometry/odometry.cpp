@@ -53,6 +53,7 @@ void OdometryOptions::check() const {
   window.check();
   optimizer.check();
   accept.check();
+  require(covariance_factor > 0.0, "covariance_factor", "positive");
 }
 
 std::string to_string(TrackStatus status) {
@@ -86,7 +87,7 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
   FramePyramid pyramid;
   {
     const StageTimer timer(statistics_.stages[stage_pyramid]);
-    pyramid = build_frame_pyramid(camera_, image);
+    pyramid = build_frame_pyramid(camera_, image, options_.keyframe.smoothing);
   }
   TrackResult result;
   ++statistics_.frames;
@@ -96,7 +97,7 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
       result.status = TrackStatus::ok;
       result.inlier_share = 1.0;
       result.coverage = 1.0;
-      result.covariance = reference_->covariance;
+      result.covariance = options_.covariance_factor * reference_->covariance;
     }
   } else {
     Alignment alignment;
@@ -117,7 +118,8 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
       const Matrix6d adjoint = reference_->T_world_camera.adjoint();
       Matrix6d information = alignment.information;
       information.diagonal().array() += 1e-9;
-      result.covariance = adjoint * information.inverse() * adjoint.transpose() + reference_->covariance;
+      result.covariance =
+          options_.covariance_factor * (adjoint * information.inverse() * adjoint.transpose() + reference_->covariance);
       relative_brightness_ = alignment.brightness;
       last_rmse_ = alignment.rmse;
       last_inlier_share_ = alignment.inlier_share;
@@ -127,7 +129,7 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
       if (score.score > 1.0) {
         const Brightness brightness = compose_brightness(alignment.brightness, reference_->brightness);
         if (add_keyframe(pyramid, time, result.T_world_camera, brightness, result)) {
-          result.covariance = reference_->covariance;
+          result.covariance = options_.covariance_factor * reference_->covariance;
         }
       }
     }

@@ -37,6 +37,8 @@ struct OdometryOptions {
   WindowOptions window;
   WindowOptimizerOptions optimizer;
   AcceptOptions accept;
+  /// Neighbouring pixels err alike, which normal equations do not know: covariances out are theirs times this.
+  double covariance_factor = 20.0;
 
   void check() const;
 };

@@ -9,6 +9,7 @@
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/camera_file.hpp"
 #include "odosplat/io/cloud_file.hpp"
+#include "odosplat/io/image_container.hpp"
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/list_file.hpp"
 #include "odosplat/io/natural_order.hpp"
@@ -29,7 +30,9 @@ void read_or_refuse(Read read) {
   try {
     read();
   } catch (const InputError& e) {
-    demand(std::string(e.what()).find('\n') == std::string::npos, "an error has one line");
+    const bool one_line = std::string(e.what()).find('\n') == std::string::npos;
+    if (!one_line) std::fprintf(stderr, "%s\n", e.what());
+    demand(one_line, "an error has one line");
   }
 }
 
@@ -42,6 +45,20 @@ void demand_order(const Trajectory& trajectory) {
 }
 
 }  // namespace
+
+// The container only: the decoders are not ours, and their work would hide ours.
+void image(const std::string& bytes) {
+  read_or_refuse([&] {
+    const ImageContainer container = inspect_image("fuzz", bytes);
+    demand(container.width >= 1 && container.width <= 32768, "width is in range");
+    demand(container.height >= 1 && container.height <= 32768, "height is in range");
+    if (!container.is_png) return;
+    const std::string bare = bare_png(bytes);
+    demand(bare.size() <= bytes.size(), "a bare PNG is not longer");
+    const ImageContainer again = inspect_image("fuzz", bare);
+    demand(again.width == container.width && again.bits == container.bits, "a bare PNG says the same");
+  });
+}
 
 void ply(const std::string& bytes) {
   set_log_level("off");

@@ -8,6 +8,7 @@ namespace odosplat::fuzz {
 
 /// What the fuzzers and the replay of their corpus call: any bytes are read or refused with an InputError of one line;
 /// any other exception, and a result that breaks its contract, ends the program.
+void image(const std::string& bytes);
 void ply(const std::string& bytes);
 void trajectory(const std::string& bytes);
 void camera_file(const std::string& bytes);

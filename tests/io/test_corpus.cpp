@@ -39,7 +39,8 @@ TEST_P(Corpus, EverySeedAndEveryCutOfItIsReadOrRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Corpus,
-                         testing::Values(Target{"ply", fuzz::ply}, Target{"trajectory", fuzz::trajectory},
+                         testing::Values(Target{"image", fuzz::image}, Target{"ply", fuzz::ply},
+                                         Target{"trajectory", fuzz::trajectory},
                                          Target{"camera_file", fuzz::camera_file},
                                          Target{"sequence_lists", fuzz::sequence_lists}));
 

@@ -135,6 +135,18 @@ TEST(SequenceTum, AssociatesDepthWithinTwentyMilliseconds) {
   EXPECT_TRUE(s.has_depth(2));
 }
 
+TEST(SequenceTum, DepthHasThePoseOfItsOwnStamp) {
+  const TempFolder temp;
+  put_tum(temp);
+  temp.put("depth.txt", "10.010 depth/10.000.png\n10.100 depth/10.100.png\n");
+  temp.put("groundtruth.txt", pose_line("10.000", 0) + pose_line("10.05", 5) + pose_line("10.1", 9));
+  const Sequence s = Sequence::open(temp.path());
+  EXPECT_EQ(s.T_world_camera(0)->translation().x(), 0.0);
+  EXPECT_NEAR(s.T_world_depth(0)->translation().x(), 1.0, 1e-6);
+  EXPECT_EQ(s.T_world_depth(1)->translation().x(), 9.0);
+  EXPECT_FALSE(s.T_world_depth(2));  // no depth and no pose
+}
+
 TEST(SequenceTum, NegativeFyReflectsPosesUnlessAsStored) {
   const TempFolder temp;
   put_tum(temp, 1);

@@ -25,7 +25,7 @@ using test::TempFolder;
 double reprojection_mm(const Sequence& s, std::size_t i, std::size_t j) {
   const DepthImage from = s.depth(i);
   const DepthImage to = s.depth(j);
-  const SE3 T_j_i = s.T_world_camera(j)->inverse() * *s.T_world_camera(i);
+  const SE3 T_j_i = s.T_world_depth(j)->inverse() * *s.T_world_depth(i);
   std::vector<double> errors;
   for (int y = 0; y < from.rows; y += 2) {
     for (int x = 0; x < from.cols; x += 2) {
