@@ -9,5 +9,5 @@ int main() {
   const odosplat::Camera camera{640, 480, 525.0, 525.0, 319.5, 239.5};
   camera.check();
   for (const auto& device : odosplat::compute::list_devices()) std::printf("%s\n", device.name.c_str());
-  return odosplat::OdometryOptions().window_size > 0 ? 0 : 1;
+  return odosplat::OdometryOptions().window.max_keyframes > 0 ? 0 : 1;
 }
