@@ -105,8 +105,8 @@ void Bvh::build(std::vector<Item>& items, int begin, int end, int depth) {
     centres.add(items[static_cast<std::size_t>(i)].centre);
   }
   constexpr float endless = std::numeric_limits<float>::max();
-  nodes_[self].low << bounds.low.array(), -endless;
-  nodes_[self].high << bounds.high.array(), endless;
+  nodes_[self].low = {bounds.low.x(), bounds.low.y(), bounds.low.z(), -endless};
+  nodes_[self].high = {bounds.high.x(), bounds.high.y(), bounds.high.z(), endless};
   const int count = end - begin;
   auto make_leaf = [&] {
     nodes_[self].next = begin;
