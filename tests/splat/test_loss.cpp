@@ -51,8 +51,8 @@ TEST(ReferenceLoss, GradientIsFiniteDifference) {
 
 TEST(ReferenceLoss, WindowIsCentred) {
   // Both images are symmetric under a turn by 180 degrees; with a centred window the gradient has the same symmetry.
-  constexpr int width = 13;
-  constexpr int height = 13;
+  constexpr std::size_t width = 13;
+  constexpr std::size_t height = 13;
   std::vector<double> rendered(3 * width * height, 0.2);
   const std::vector<double> target(3 * width * height, 0.2);
   for (std::size_t c = 0; c < 3; ++c) rendered[c * width * height + 6 * width + 6] = 0.9;

@@ -87,7 +87,7 @@ TEST_F(MapFile, HeaderIsThatOfPublicPrograms) {
     expected += "property float " + name + "\n";
   EXPECT_THAT(header, HasSubstr(expected));
   // 2 rows of 26 floats behind the header.
-  EXPECT_EQ(text.size(), text.find("end_header\n") + 11 + 2U * 26 * 4);
+  EXPECT_EQ(text.size(), text.find("end_header\n") + 11 + std::size_t{2} * 26 * 4);
 }
 
 TEST_F(MapFile, RestOfHarmonicsIsChannelAfterChannel) {
