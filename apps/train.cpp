@@ -52,8 +52,7 @@ TrainerOptions trainer_options(const TrainJob& job) {
 }
 
 InitializeOptions initialize_options(const TrainJob& job) {
-  InitializeOptions options;
-  if (job.preset == "paper") options.shape = InitialShape::random;
+  InitializeOptions options = InitializeOptions::preset(job.preset);
   options.budget = job.budget;
   options.seed = job.seed;
   return options;
@@ -81,11 +80,6 @@ void write_report(const TrainJob& job, const TrainingReport& report, const compu
   write_file_atomically(job.report, json.dump(2) + "\n");
 }
 
-std::vector<std::string> map_comments(const TrainJob& job, const TrainingReport& report) {
-  return {"preset " + job.preset, "iterations " + std::to_string(report.iterations),
-          "seed " + std::to_string(job.seed)};
-}
-
 }  // namespace
 
 TrainingReport train_map(const Common& common, const TrainJob& job) {
@@ -106,7 +100,7 @@ TrainingReport train_map(const Common& common, const TrainJob& job) {
   }
   progress.finish();
   const TrainingReport report = trainer.report();
-  write_map(job.out, trainer.gaussians(), map_comments(job, report));
+  write_map(job.out, trainer.gaussians(), trainer.options().describe());
   write_report(job, report, device);
   print_profile(common, device);
   if (!trainer.done()) throw Interrupted();

@@ -11,8 +11,9 @@
 
 #include "odosplat/compute/device.hpp"
 
-struct _cl_mem;
-struct _cl_kernel;
+// OpenCL's own names, declared here so that its headers stay out of ours.
+struct _cl_mem;     // NOLINT(bugprone-reserved-identifier)
+struct _cl_kernel;  // NOLINT(bugprone-reserved-identifier)
 
 namespace odosplat::compute {
 

@@ -46,7 +46,7 @@ class Kernel {
   template <typename T>
   void set(unsigned index, const Buffer<T>& buffer) {
     _cl_mem* handle = buffer.handle();
-    set_bytes(index, &handle, sizeof(handle));
+    set_bytes(index, &handle, sizeof(handle));  // NOLINT(bugprone-sizeof-expression): the handle itself is the argument
   }
   template <typename T>
   void set(unsigned index, const T& value) {
