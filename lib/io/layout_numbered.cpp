@@ -112,7 +112,7 @@ CameraFile read_replica_camera(const std::string& file) {
   const double fy = json_number(file, camera, "fy");
   const double cx = json_number(file, camera, "cx");
   const double cy = json_number(file, camera, "cy");
-  const CameraFile read = published_camera(width, height, fx, fy, cx, cy, json_number(file, camera, "scale"));
+  CameraFile read = published_camera(width, height, fx, fy, cx, cy, json_number(file, camera, "scale"));
   try {
     read.camera.check();
   } catch (const InputError& e) {

@@ -72,7 +72,7 @@ DepthImage Undistorter::depth(const DepthImage& distorted) const {
   for (int v = 0; v < image.rows; ++v) {
     for (int u = 0; u < image.cols; ++u) {
       const cv::Vec2f p = source_(v, u);
-      if (p[0] >= 0.0F) image(v, u) = distorted(static_cast<int>(p[1] + 0.5F), static_cast<int>(p[0] + 0.5F));
+      if (p[0] >= 0.0F) image(v, u) = distorted(cvRound(p[1]), cvRound(p[0]));
     }
   }
   return image;
