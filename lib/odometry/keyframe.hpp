@@ -24,10 +24,11 @@ struct WindowPoint {
   float u = 0.0F;  // [px]
   float v = 0.0F;
   Plane plane_world;
-  Eigen::Vector3d m_host;         // [1/m] the same plane m . p_host = 1 as rendered, were it fixed to the host
-  double sigma = 0.0;             // [1/m] of inverse depth
-  float intensity[pattern_size];  // [grey]
-  float weight[pattern_size];     // gradient-dependent, 0..1
+  Eigen::Vector3d m_host =
+      Eigen::Vector3d::Zero();         // [1/m] the same plane m . p_host = 1 as rendered, were it fixed to the host
+  double sigma = 0.0;                  // [1/m] of inverse depth
+  float intensity[pattern_size] = {};  // [grey]
+  float weight[pattern_size] = {};     // gradient-dependent, 0..1
 };
 
 /// The map's own view from a pose where a keyframe was believed to be: its image says what the keyframe should see from

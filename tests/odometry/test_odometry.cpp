@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "box_room.hpp"
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/parallel.hpp"
+#include "odosplat/odometry/odometry.hpp"
+
+namespace odosplat {
+namespace {
+
+struct Played {
+  std::vector<TrackResult> live;
+  Trajectory trajectory;
+  OdometryStatistics statistics;
+};
+
+class OdometryTest : public testing::Test {
+ protected:
+  using Path = std::function<SE3(int)>;
+
+  /// Plays the room's true images (change may spoil them) from a map that may be another.
+  Played play(test::BoxRoom& map, int frames, const OdometryOptions& options = {}, const SE3& start_error = {},
+              const std::function<void(int, GrayImage&)>& change = {}, const Path& path = test::room_path) const {
+    Played run;
+    Odometry odometry(camera_, map, options, path(0) * start_error);
+    for (int k = 0; k < frames; ++k) {
+      GrayImage image = world_.gray(camera_, path(k));
+      if (change) change(k, image);
+      run.live.push_back(odometry.track(image, k / 30.0));
+    }
+    run.trajectory = odometry.trajectory();
+    run.statistics = odometry.statistics();
+    return run;
+  }
+
+  /// Root mean square position error [m] of the final trajectory.
+  static double ate(const Played& run, const Path& path = test::room_path) {
+    double squares = 0.0;
+    for (const StampedPose& pose : run.trajectory) {
+      const SE3 truth = path(static_cast<int>(std::lround(pose.time * 30.0)));
+      squares += (truth.inverse() * pose.T_world_camera).translation().squaredNorm();
+    }
+    return std::sqrt(squares / static_cast<double>(run.trajectory.size()));
+  }
+
+  static OdometryOptions without_anchor() {
+    OdometryOptions options;
+    options.keyframe.anchor.enabled = false;
+    return options;
+  }
+
+  Camera camera_ = test::small_camera();
+  test::BoxRoom world_;
+};
+
+TEST_F(OdometryTest, FollowsThePathToAMillimetre) {
+  test::BoxRoom map;
+  const Played run = play(map, 90);
+  EXPECT_EQ(run.statistics.posed, 90);
+  EXPECT_EQ(run.statistics.lost, 0);
+  ASSERT_EQ(run.trajectory.size(), 90U);
+  EXPECT_GE(run.statistics.keyframes, 4);
+  EXPECT_EQ(run.statistics.anchored, run.statistics.keyframes);
+  EXPECT_LT(ate(run), 0.001);
+  // One render a keyframe: nothing else looks at the map.
+  EXPECT_EQ(map.renders, run.statistics.keyframes);
+  for (const TrackResult& result : run.live) {
+    EXPECT_EQ(result.status, TrackStatus::ok);
+    EXPECT_GT(result.covariance.diagonal().minCoeff(), 0.0);
+  }
+}
+
+TEST_F(OdometryTest, FollowsThePathWithoutColours) {
+  test::BoxRoom map;
+  map.with_color = false;
+  const Played run = play(map, 90);
+  EXPECT_EQ(run.statistics.posed, 90);
+  EXPECT_EQ(run.statistics.anchored, 0);
+  EXPECT_LT(ate(run), 0.004);
+  test::BoxRoom coloured;
+  EXPECT_LT(ate(play(coloured, 90, without_anchor())), 0.004);
+}
+
+TEST_F(OdometryTest, ScaleStays) {
+  test::BoxRoom map;
+  const Played run = play(map, 90, without_anchor());
+  double estimate = 0.0;
+  double truth = 0.0;
+  for (std::size_t k = 15; k < run.trajectory.size(); k += 15) {
+    const int i = static_cast<int>(k);
+    estimate +=
+        (run.trajectory[k].T_world_camera.translation() - run.trajectory[k - 15].T_world_camera.translation()).norm();
+    truth += (test::room_path(i).translation() - test::room_path(i - 15).translation()).norm();
+  }
+  EXPECT_NEAR(estimate / truth, 1.0, 0.01);
+}
+
+TEST_F(OdometryTest, TheMapPullsAWrongStartIntoPlace) {
+  test::BoxRoom map;
+  const SE3 error(so3_exp({0.01, -0.01, 0.005}), {0.02, -0.01, 0.02});
+  const Played anchored = play(map, 40, {}, error);
+  EXPECT_LT(ate(anchored), 0.002);
+  const Played free = play(map, 40, without_anchor(), error);
+  EXPECT_GT(ate(free), 0.005);
+}
+
+TEST_F(OdometryTest, AMapInOtherColoursDoesNoHarm) {
+  test::BoxRoom inverted;  // not reachable by gain and offset alone
+  inverted.gamma = -0.7;
+  const Played run = play(inverted, 60);
+  EXPECT_EQ(run.statistics.posed, 60);
+  EXPECT_LT(ate(run), 0.004);
+  test::BoxRoom darker;
+  darker.gamma = 1.6;
+  EXPECT_LT(ate(play(darker, 60)), 0.004);
+}
+
+TEST_F(OdometryTest, PureRotationStaysInPlace) {
+  test::BoxRoom map;
+  const Path turning = [](int k) { return SE3(so3_exp({0.0, 0.01 * k, 0.002 * k}), {0.2, 0.1, -0.3}); };
+  const Played run = play(map, 60, {}, {}, {}, turning);
+  EXPECT_EQ(run.statistics.posed, 60);
+  EXPECT_LT(ate(run, turning), 0.001);
+}
+
+TEST_F(OdometryTest, ExposureMayChange) {
+  test::BoxRoom map;
+  const Played run = play(map, 80, {}, {}, [](int k, GrayImage& image) {
+    const float gain = k < 30 ? 1.0F : k < 55 ? 1.5F : 0.8F;
+    for (float& value : image) value = std::min(1.0F, gain * value);
+  });
+  EXPECT_EQ(run.statistics.lost, 0);
+  EXPECT_LT(ate(run), 0.002);
+}
+
+TEST_F(OdometryTest, BlackFramesAreLostAndTheRunGoesOn) {
+  test::BoxRoom map;
+  const auto black = [](int k, GrayImage& image) {
+    if (k >= 40 && k < 55) image.setTo(0.0F);
+  };
+  const Played run = play(map, 90, {}, {}, black);
+  for (int k = 0; k < 90; ++k) {
+    const TrackResult& result = run.live[static_cast<std::size_t>(k)];
+    const bool dark = k >= 40 && k < 55;
+    EXPECT_EQ(result.status == TrackStatus::lost, dark) << k;
+    if (dark) {
+      EXPECT_EQ(result.T_world_camera.matrix(), SE3().matrix());
+      EXPECT_FALSE(result.keyframe);
+    }
+  }
+  EXPECT_EQ(run.live[55].status, TrackStatus::relocalised);
+  EXPECT_EQ(run.statistics.lost, 15);
+  EXPECT_EQ(run.statistics.relocalisations, 1);
+  EXPECT_EQ(run.trajectory.size(), 75U);
+  EXPECT_LT(ate(run), 0.0015);
+}
+
+TEST_F(OdometryTest, AnEmptyMapLosesEveryFrameQuietly) {
+  test::BoxRoom map;
+  map.with_depth = false;
+  const Played run = play(map, 5);
+  EXPECT_EQ(run.statistics.lost, 5);
+  EXPECT_TRUE(run.trajectory.empty());
+}
+
+TEST_F(OdometryTest, TheFirstSeenMapStartsTheRun) {
+  // The first two images are black: the start pose waits for one that shows something.
+  test::BoxRoom map;
+  const Path standing = [](int k) { return test::room_path(std::max(0, k - 2)); };
+  const Played run = play(
+      map, 20, {}, {},
+      [](int k, GrayImage& image) {
+        if (k < 2) image.setTo(0.0F);
+      },
+      standing);
+  EXPECT_EQ(run.statistics.lost, 2);
+  EXPECT_LT(ate(run, standing), 0.001);
+}
+
+TEST_F(OdometryTest, SameBitsWithAnyNumberOfThreads) {
+  const int before = threads();
+  std::vector<Trajectory> trajectories;
+  for (const int n : {1, 2}) {
+    set_threads(n);
+    test::BoxRoom map;
+    trajectories.push_back(play(map, 40).trajectory);
+  }
+  set_threads(before);
+  ASSERT_EQ(trajectories[0].size(), trajectories[1].size());
+  for (std::size_t k = 0; k < trajectories[0].size(); ++k) {
+    EXPECT_EQ(trajectories[0][k].T_world_camera.matrix(), trajectories[1][k].T_world_camera.matrix()) << k;
+  }
+}
+
+TEST_F(OdometryTest, BadInputIsRefused) {
+  test::BoxRoom map;
+  Odometry odometry(camera_, map, {}, SE3());
+  EXPECT_THROW(odometry.track(GrayImage(10, 10, 0.5F), 0.0), InputError);
+  EXPECT_THROW(odometry.track(GrayImage(), 0.0), InputError);
+  Camera broken = camera_;
+  broken.fx = 0.0;
+  EXPECT_THROW(Odometry(broken, map, {}, SE3()), InputError);
+  OdometryOptions options;
+  options.tracker.huber = -1.0;
+  EXPECT_THROW(Odometry(camera_, map, options, SE3()), InputError);
+  const SE3 nowhere(Eigen::Quaterniond::Identity(), {std::nan(""), 0.0, 0.0});
+  EXPECT_THROW(Odometry(camera_, map, {}, nowhere), InputError);
+}
+
+}  // namespace
+}  // namespace odosplat

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "box_room.hpp"
+#include "odosplat/core/parallel.hpp"
+#include "odosplat/core/random.hpp"
+#include "odosplat/odometry/keyframe_maker.hpp"
+#include "odosplat/odometry/window_optimizer.hpp"
+
+namespace odosplat {
+namespace {
+
+class WindowOptimizerTest : public testing::Test {
+ protected:
+  /// n keyframes on the room's path, six frames apart, at their true poses with true depth.
+  Window make_window(int n, bool anchored) {
+    KeyframeMakerOptions options;
+    options.anchor.enabled = anchored;
+    options.smoothing = 0.0;
+    KeyframeMaker maker(options);
+    const Tracker tracker({});
+    Window window;
+    for (int i = 0; i < n; ++i) {
+      const SE3 T = test::room_path(6 * i);
+      const FramePyramid pyramid = build_frame_pyramid(camera_, room_.gray(camera_, T));
+      const auto made = maker.make(pyramid, room_.render(camera_, T, {true, true}), T, {}, tracker);
+      EXPECT_NE(made.keyframe, nullptr);
+      EXPECT_EQ(made.anchored, anchored);
+      window.keyframes.push_back(made.keyframe);
+    }
+    return window;
+  }
+
+  /// Poses off by some millimetres and tenths of a degree, as tracking leaves them.
+  static void disturb(Window& window, std::size_t from) {
+    Random random(4);
+    for (std::size_t i = from; i < window.keyframes.size(); ++i) {
+      Vector6d xi;
+      for (int k = 0; k < 6; ++k) xi[k] = (k < 3 ? 0.006 : 0.003) * random.uniform(-1.0, 1.0);
+      auto& T = window.keyframes[i]->T_world_camera;
+      T = T * SE3::exp(xi);
+    }
+  }
+
+  /// Largest distance [m] between the two windows' poses: has the optimum been reached that starts at the truth lead
+  /// to?
+  static double largest_difference(const Window& a, const Window& b) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.keyframes.size(); ++i) {
+      const SE3 error = a.keyframes[i]->T_world_camera.inverse() * b.keyframes[i]->T_world_camera;
+      largest = std::max(largest, error.translation().norm());
+    }
+    return largest;
+  }
+
+  static double largest_error(const Window& window) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < window.keyframes.size(); ++i) {
+      const SE3 error = test::room_path(6 * static_cast<int>(i)).inverse() * window.keyframes[i]->T_world_camera;
+      largest = std::max(largest, error.translation().norm());
+    }
+    return largest;
+  }
+
+  Camera camera_ = test::small_camera();
+  test::BoxRoom room_;
+  WindowOptimizer optimizer_{{}};
+};
+
+TEST_F(WindowOptimizerTest, FindsDisturbedPosesFromTheOldestWithoutAnchors) {
+  Window window = make_window(5, false);
+  disturb(window, 1);
+  ASSERT_GT(largest_error(window), 0.003);
+  optimizer_.optimize(window, camera_);
+  EXPECT_LT(largest_error(window), 0.0015);
+}
+
+TEST_F(WindowOptimizerTest, PlacesFarFromTheOriginMakeNoDifference) {
+  Window near = make_window(4, true);
+  disturb(near, 0);
+  Window far = make_window(4, true);
+  disturb(far, 0);
+  const Eigen::Vector3d by(800.0, -500.0, 300.0);
+  for (const auto& keyframe : far.keyframes) {
+    keyframe->T_world_camera = SE3(keyframe->T_world_camera.rotation(), keyframe->T_world_camera.translation() + by);
+    keyframe->anchor.T_world_view =
+        SE3(keyframe->anchor.T_world_view.rotation(), keyframe->anchor.T_world_view.translation() + by);
+    for (auto* points : {&keyframe->points, &keyframe->anchor.points}) {
+      for (WindowPoint& point : *points) point.plane_world.D += point.plane_world.N.dot(by);
+    }
+  }
+  optimizer_.optimize(near, camera_);
+  optimizer_.optimize(far, camera_);
+  for (std::size_t i = 0; i < near.keyframes.size(); ++i) {
+    const Eigen::Vector3d a = near.keyframes[i]->T_world_camera.translation() + by;
+    EXPECT_LT((a - far.keyframes[i]->T_world_camera.translation()).norm(), 1e-6);
+  }
+}
+
+TEST_F(WindowOptimizerTest, FindsBrightness) {
+  Window window = make_window(3, true);
+  // The middle keyframe's camera had a longer exposure.
+  Keyframe& keyframe = *window.keyframes[1];
+  for (cv::Vec4f& pixel : keyframe.gradient) {
+    pixel[0] = 1.15F * pixel[0] + 0.02F;
+    pixel[1] *= 1.15F;
+    pixel[2] *= 1.15F;
+  }
+  for (WindowPoint& point : keyframe.points) {
+    for (float& intensity : point.intensity) intensity = 1.15F * intensity + 0.02F;
+  }
+  disturb(window, 0);
+  WindowOptimizerOptions options;
+  options.max_iterations = 15;
+  WindowOptimizer(options).optimize(window, camera_);
+  EXPECT_LT(largest_error(window), 0.002);
+  const Brightness relative = relative_brightness(keyframe.brightness, window.keyframes[0]->brightness);
+  EXPECT_NEAR(relative.a, std::log(1.15), 0.01);
+  EXPECT_NEAR(relative.b, 0.02, 0.01);
+}
+
+TEST_F(WindowOptimizerTest, AWrongAnchorIsOutvoted) {
+  Window window = make_window(5, true);
+  // One keyframe's rendered view shows another place: nearly all its points are outliers.
+  for (WindowPoint& point : window.keyframes[2]->anchor.points) {
+    for (float& intensity : point.intensity) intensity = 1.0F - intensity;
+  }
+  disturb(window, 0);
+  optimizer_.optimize(window, camera_);
+  EXPECT_LT(largest_error(window), 0.002);
+}
+
+TEST_F(WindowOptimizerTest, CovarianceIsPositiveAndSmallerWithMoreKeyframes) {
+  Window two = make_window(2, true);
+  Window six = make_window(6, true);
+  optimizer_.optimize(two, camera_);
+  optimizer_.optimize(six, camera_);
+  for (const Window* window : {&two, &six}) {
+    for (const auto& keyframe : window->keyframes) {
+      const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(keyframe->covariance);
+      EXPECT_GT(eigen.eigenvalues()[0], 0.0);
+    }
+  }
+  EXPECT_LT(six.keyframes[1]->covariance.trace(), two.keyframes[1]->covariance.trace());
+}
+
+TEST_F(WindowOptimizerTest, OneKeyframeWithoutAnchorStays) {
+  Window window = make_window(1, false);
+  const SE3 before = window.keyframes[0]->T_world_camera;
+  EXPECT_EQ(optimizer_.optimize(window, camera_).iterations, 0);
+  EXPECT_EQ(before.matrix(), window.keyframes[0]->T_world_camera.matrix());
+  Window empty;
+  EXPECT_EQ(optimizer_.optimize(empty, camera_).iterations, 0);
+}
+
+TEST_F(WindowOptimizerTest, SameBitsWithAnyNumberOfThreads) {
+  std::vector<Eigen::Matrix4d> poses;
+  const int before = threads();
+  for (const int n : {1, 2, 5}) {
+    set_threads(n);
+    Window window = make_window(4, true);
+    disturb(window, 0);
+    optimizer_.optimize(window, camera_);
+    poses.push_back(window.keyframes[2]->T_world_camera.matrix());
+  }
+  set_threads(before);
+  EXPECT_EQ(poses[0], poses[1]);
+  EXPECT_EQ(poses[0], poses[2]);
+}
+
+}  // namespace
+}  // namespace odosplat
