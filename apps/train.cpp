@@ -11,6 +11,7 @@
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/cloud_file.hpp"
+#include "odosplat/map/interpolation_view.hpp"
 #include "odosplat/splat/map_file.hpp"
 
 namespace odosplat::apps {
@@ -48,6 +49,16 @@ TrainerOptions trainer_options(const TrainJob& job) {
   TrainerOptions options = TrainerOptions::preset(job.preset);
   if (job.iterations >= 0) options.iterations = job.iterations;
   options.seed = job.seed;
+  if (!job.densify.empty()) options.densify.method = densify_method(job.densify);
+  options.densify.budget = job.budget;
+  if (job.exposure == "on") options.exposure.rate = 1e-3;
+  if (job.exposure == "off") options.exposure.rate = 0.0;
+  if (job.depth_weight >= 0.0) options.depth.weight = job.depth_weight;
+  auto env=[&](const char* n, double& v){ if(const char* e=std::getenv(n)) v=std::atof(e); };
+  env("X_CUT", options.depth.cut); env("X_PLACE", options.surface.place_weight); env("X_NORMAL", options.surface.normal_weight);
+  env("X_FLAT", options.surface.flatten_weight); env("X_ROT", options.rotation_rate); env("X_POS", options.position_rate); env("X_POSF", options.position_rate_final);
+  env("X_GROW", options.largest_growth); env("X_OPA", options.opacity_rate); env("X_SCALE", options.scale_rate);
+  if (std::getenv("X_FREE")) options.keep_thickness = false;
   return options;
 }
 
@@ -91,8 +102,10 @@ TrainingReport train_map(const Common& common, const TrainJob& job) {
   const PointCloud cloud = read_point_cloud(job.cloud);
   const compute::Context device = open_device(common);
   const Gaussians start = gaussians_from_cloud(cloud, initial);
+  std::unique_ptr<InterpolationView> surface;
+  if (options.depth.weight > 0.0) surface = std::make_unique<InterpolationView>(smoothed_cloud(cloud, initial));
   log_info("training " + std::to_string(start.size()) + " Gaussians on " + std::to_string(views.count()) + " images");
-  Trainer trainer(device, options, start, views);
+  Trainer trainer(device, options, start, views, surface.get());
   Progress progress("train", options.iterations);
   while (!trainer.done() && !interrupted()) {
     const TrainingStep step = trainer.step();
@@ -119,6 +132,9 @@ void add_train(CLI::App& app, Common& common) {
   command->add_option("--preset", job->preset, "default, or paper (the recipe of the paper's code)");
   command->add_option("--iterations", job->iterations, "steps of one image each (default: the preset's)");
   command->add_option("--budget", job->budget, "most Gaussians, 0 = one a point");
+  command->add_option("--densify", job->densify, "none, relocate or split (default: the preset's)");
+  command->add_option("--exposure", job->exposure, "on, off (default: the preset's)");
+  command->add_option("--depth-weight", job->depth_weight, "weight of depth (default: the preset's)");
   command->add_option("--seed", job->seed, "seed of every random choice");
   command->add_option("--report", job->report, "report to write (JSON)");
   command->final_callback([&common, job] {

@@ -22,6 +22,11 @@ struct TrainJob {
   int iterations = -1;  // < 0: the preset's
   std::uint64_t seed = 42;
   std::size_t budget = 0;  // Gaussians, 0: one a point
+  std::string densify;     // empty: the preset's
+  std::string exposure;    // on, off; empty: the preset's
+  double depth_weight = -1.0;  // < 0: the preset's
+  int checkpoint_every = 500;  // iterations, 0: never
+  bool resume = false;
 };
 
 /// Makes map.ply from a cloud and posed images, and the report if asked. After Ctrl-C the map as it is then is

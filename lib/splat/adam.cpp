@@ -54,6 +54,34 @@ void Adam::step(compute::Buffer<float>& parameters, const compute::Buffer<float>
                static_cast<float>(1.0 / std::sqrt(bias2)), options_.epsilon);
 }
 
+Adam::State Adam::state() const {
+  if (steps_ == 0) return {};
+  return {first_.download(), second_.download(), steps_};
+}
+
+void Adam::set_state(const State& state) {
+  require(state.first.size() == state.second.size(), "moments", "of one size");
+  steps_ = state.steps;
+  first_ = compute::Buffer<float>(context_, state.first);
+  second_ = compute::Buffer<float>(context_, state.second);
+}
+
+void Adam::rearrange(const std::vector<std::int64_t>& from) {
+  if (steps_ == 0) return;
+  const auto stride = static_cast<std::size_t>(stride_);
+  const State old = state();
+  State moved{std::vector<float>(stride * from.size(), 0.0F), std::vector<float>(stride * from.size(), 0.0F), steps_};
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (from[i] < 0) continue;
+    for (std::size_t k = 0; k < stride; ++k) {
+      const std::size_t source = static_cast<std::size_t>(from[i]) * stride + k;
+      moved.first[i * stride + k] = old.first.at(source);
+      moved.second[i * stride + k] = old.second.at(source);
+    }
+  }
+  set_state(moved);
+}
+
 void Adam::limit(compute::Buffer<float>& parameters, const compute::Buffer<float>& bound) {
   require(bound.size() == parameters.size(), "bound", "as large as the parameters");
   limit_kernel_(compute::Range::linear((parameters.size() + lanes - 1) / lanes, 16), parameters, bound,

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "odosplat/compute/program.hpp"
 
@@ -19,7 +21,7 @@ struct AdamOptions {
 
 /// Adam (Kingma and Ba 2015, algorithm 1) for one attribute: rows of `stride` floats, N of them, on the device. The
 /// first `head` elements of a row move at the rate itself, the others at rate * rest_ratio (SH: colour and details).
-/// Holds both moments and the number of steps made. Deterministic; queued. Not thread safe.
+/// Holds both moments and the number of steps made, all of which a checkpoint can take out and put back. Deterministic; queued. Not thread safe.
 class Adam {
  public:
   /// stride >= 1, 0 <= head <= stride, rest_ratio >= 0.
@@ -30,6 +32,15 @@ class Adam {
   /// Holds parameters at or below bound, element by element (same size). Queued.
   void limit(compute::Buffer<float>& parameters, const compute::Buffer<float>& bound);
   long steps() const { return steps_; }
+
+  struct State {
+    std::vector<float> first, second;  // both moments, as large as the parameters; empty before the first step
+    long steps = 0;
+  };
+  State state() const;
+  void set_state(const State& state);
+  /// The parameters were rearranged in rows: row i has the moments of row from[i] before, or none (from[i] < 0).
+  void rearrange(const std::vector<std::int64_t>& from);
 
  private:
   AdamOptions options_;

@@ -121,6 +121,20 @@ void InitializeOptions::check() const {
   require(smoothing_neighbors >= 0, "smoothing_neighbors", "at least 0");
 }
 
+PointCloud smoothed_cloud(const PointCloud& input, const InitializeOptions& options) {
+  options.check();
+  if (input.size() == 0) throw InputError("cloud", "holds no points");
+  check_finite(input);
+  PointCloud cloud = input;
+  const bool own_normals = cloud.has_normals();
+  if (!own_normals) estimate_normals(cloud, options.normal_neighbors);
+  if (options.smoothing_neighbors > 0) {
+    cloud.points = smooth(cloud, options.smoothing_neighbors);
+    if (!own_normals) estimate_normals(cloud, options.normal_neighbors);  // better ones, from better points
+  }
+  return cloud;
+}
+
 Gaussians gaussians_from_cloud(const PointCloud& input, const InitializeOptions& options) {
   options.check();
   if (input.size() == 0) throw InputError("cloud", "holds no points");
@@ -129,14 +143,7 @@ Gaussians gaussians_from_cloud(const PointCloud& input, const InitializeOptions&
   PointCloud cloud =
       options.budget > 0 && options.budget < input.size() ? choose(input, options.budget, random) : input;
   const std::vector<float> size = sizes(cloud, options);
-  if (options.shape == InitialShape::discs) {
-    const bool own_normals = cloud.has_normals();
-    if (!own_normals) estimate_normals(cloud, options.normal_neighbors);
-    if (options.smoothing_neighbors > 0) {
-      cloud.points = smooth(cloud, options.smoothing_neighbors);
-      if (!own_normals) estimate_normals(cloud, options.normal_neighbors);  // better ones, from better points
-    }
-  }
+  if (options.shape == InitialShape::discs) cloud = smoothed_cloud(cloud, options);
 
   Gaussians gaussians;
   gaussians.sh_degree = options.sh_degree;

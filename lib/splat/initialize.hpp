@@ -36,13 +36,16 @@ struct InitializeOptions {
   void check() const;
 };
 
+/// The cloud as discs are made from it: with normals (its own, or estimated) and with points moved along them to the
+/// weighted mean of those neighbours whose normals agree, which takes out much of the scanner's noise and keeps edges
+/// (Fleishman et al. 2003, bilateral mesh denoising, on points). Errors as of gaussians_from_cloud.
+PointCloud smoothed_cloud(const PointCloud& cloud, const InitializeOptions& options);
+
 /// One Gaussian a point: the start of training.
 /// Source: the paper's section on map training (a Gaussian a point, opacity 0.8), Kerbl et al. 2023 (size from the
 /// three nearest neighbours). Differs: by default flat discs on the cloud's normals, because depth of round Gaussians
-/// lies up to one standard deviation before the surface; and points are moved along their normal to the weighted mean
-/// of those neighbours whose normals agree, which takes out much of the scanner's noise and keeps edges (Fleishman et
-/// al. 2003, bilateral mesh denoising, on points). Positions in the cloud's world frame [m]. Axis 2 of a disc is its
-/// normal. Colours 0..1 go to the SH term of degree 0; a cloud without colours becomes grey (discs) or random (random).
+/// lies up to one standard deviation before the surface; and points are smoothed first (smoothed_cloud). Positions in the
+/// cloud's world frame [m]. Axis 2 of a disc is its normal. Colours 0..1 go to the SH term of degree 0; a cloud without colours becomes grey (discs) or random (random).
 /// Throws InputError for an empty cloud, for points that are not finite, and for bad options. Deterministic for a seed.
 Gaussians gaussians_from_cloud(const PointCloud& cloud, const InitializeOptions& options);
 

@@ -10,6 +10,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
+#include "odosplat/kernels/constants.h"
 
 namespace odosplat {
 
@@ -49,108 +50,79 @@ void check_input(const Gaussians& initial, const TrainingViews& views) {
   }
 }
 
-void require_rate(double rate, const std::string& name) {
-  require(rate >= 0.0 && std::isfinite(rate), name, "at least 0");
+/// A mean over those values that are known (not negative).
+double mean_of_known(const std::vector<double>& values) {
+  double sum = 0.0;
+  int known = 0;
+  for (const double value : values) {
+    if (value < 0.0) continue;
+    sum += value;
+    ++known;
+  }
+  return known > 0 ? sum / known : 0.0;
+}
+
+/// FNV-1a over bytes, going on from `hash`.
+std::uint64_t hashed(std::uint64_t hash, const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001b3ULL;
+  return hash;
+}
+
+std::string checksum_of_start(const Gaussians& initial, const TrainingViews& views) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const auto* part :
+       {&initial.positions, &initial.log_scales, &initial.rotations, &initial.opacity_logits, &initial.sh})
+    hash = hashed(hash, part->data(), part->size() * sizeof(float));
+  for (int i = 0; i < views.count(); ++i) {
+    const Eigen::Matrix4d pose = views.T_world_camera(i).matrix();
+    const Camera camera = views.camera(i);
+    hash = hashed(hash, pose.data(), sizeof(double) * 16);
+    const double numbers[6] = {static_cast<double>(camera.width), static_cast<double>(camera.height),
+                               camera.fx, camera.fy, camera.cx, camera.cy};
+    hash = hashed(hash, numbers, sizeof(numbers));
+  }
+  std::ostringstream text;
+  text << views.count() << " views, " << initial.size() << " Gaussians, checksum " << std::hex << hash;
+  return text.str();
 }
 
 }  // namespace
 
-void TrainerOptions::check() const {
-  require(iterations >= 0, "iterations", "at least 0");
-  require(coarse_levels >= 0 && coarse_levels <= 4, "coarse_levels", "in 0..4");
-  require(coarse_share >= 0.0F && coarse_share <= 1.0F, "coarse_share", "in 0..1");
-  require(sh_interval >= 0, "sh_interval", "at least 0");
-  require_rate(position_rate, "position_rate");
-  require_rate(position_rate_final, "position_rate_final");
-  require((position_rate > 0.0) == (position_rate_final > 0.0), "position_rate_final",
-          "zero exactly when position_rate is");
-  require_rate(scale_rate, "scale_rate");
-  require_rate(rotation_rate, "rotation_rate");
-  require_rate(opacity_rate, "opacity_rate");
-  require_rate(color_rate, "color_rate");
-  require_rate(sh_rate, "sh_rate");
-  require(color_rate > 0.0 || sh_rate == 0.0, "sh_rate", "0 where color_rate is");
-  require(final_share > 0.0 && final_share <= 1.0, "final_share", "above 0, at most 1");
-  require(largest_growth == 0.0 || largest_growth >= 1.0, "largest_growth", "0 or at least 1");
-  loss.check();
-  adam.check();
-  rasterizer.check();
-}
-
-std::vector<std::string> TrainerOptions::describe() const {
-  std::vector<std::string> lines;
-  const auto add = [&lines](const std::string& name, auto value) {
-    std::ostringstream line;
-    line << name << ' ' << value;
-    lines.push_back(line.str());
-  };
-  add("iterations", iterations);
-  add("seed", seed);
-  add("coarse_levels", coarse_levels);
-  add("coarse_share", coarse_share);
-  add("sh_interval", sh_interval);
-  add("position_length", position_length == PositionLength::gaussian_size ? "gaussian_size" : "camera_extent");
-  add("position_rate", position_rate);
-  add("position_rate_final", position_rate_final);
-  add("scale_rate", scale_rate);
-  add("rotation_rate", rotation_rate);
-  add("opacity_rate", opacity_rate);
-  add("color_rate", color_rate);
-  add("sh_rate", sh_rate);
-  add("final_share", final_share);
-  add("largest_growth", largest_growth);
-  add("keep_thickness", keep_thickness ? 1 : 0);
-  add("ssim_weight", loss.ssim_weight);
-  add("color_term", loss.color_term == ColorTerm::l1 ? "l1" : "squared_l2");
-  add("dilation", rasterizer.dilation);
-  add("compensated", rasterizer.compensated ? 1 : 0);
-  return lines;
-}
-
-TrainerOptions TrainerOptions::preset(const std::string& name) {
-  TrainerOptions options;
-  if (name == "default") return options;
-  if (name != "paper") throw InputError("preset", "must be default or paper, is \"" + name + "\"");
-  options.iterations = 20000;
-  options.coarse_levels = 2;
-  options.coarse_share = 0.3F;
-  options.sh_interval = 1000;
-  options.position_length = PositionLength::camera_extent;
-  options.position_rate = 1e-4;
-  options.position_rate_final = 1e-6;
-  options.scale_rate = 5e-3;
-  options.rotation_rate = 1e-3;
-  options.opacity_rate = 1e-2;
-  options.color_rate = 2.5e-2;
-  options.sh_rate = 1.25e-4;
-  options.final_share = 1.0;
-  options.keep_thickness = false;
-  options.largest_growth = 0.0;
-  return options;
-}
-
 Trainer::Trainer(const compute::Context& context, const TrainerOptions& options, const Gaussians& initial,
-                 TrainingViews& views)
+                 TrainingViews& views, MapView* surface)
     : options_((options.check(), check_input(initial, views), options)),
       context_(context),
       views_(views),
+      targets_(context, views, options.depth.weight > 0.0 ? surface : nullptr, options.depth_cache_mb << 20U),
       rasterizer_(context, options.rasterizer),
       loss_(context, options.loss),
+      depth_loss_(context, options.depth),
+      surface_terms_(context, options.surface),
+      exposures_(context, options.exposure, views.count()),
       positions_(context, options.adam, 3, 3, 0.0F),
       log_scales_(context, options.adam, 3, options.keep_thickness ? 2 : 3, 0.0F),
       rotations_(context, options.adam, 4, 4, 0.0F),
       opacity_logits_(context, options.adam, 1, 1, 0.0F),
       sh_(context, options.adam, 3 * initial.coefficients(), 3,
           options.color_rate > 0.0 ? static_cast<float>(options.sh_rate / options.color_rate) : 0.0F),
+      screen_statistics_(compute::Program(context, {"screen_statistics.cl"}).kernel("screen_statistics")),
       position_length_(options.position_length == PositionLength::gaussian_size ? median_size(initial)
                                                                                 : camera_extent(views)),
-      psnr_db_(static_cast<std::size_t>(views.count()), 0.0),
-      psnr_known_(static_cast<std::size_t>(views.count()), false) {
+      camera_extent_(camera_extent(views)),
+      start_(checksum_of_start(initial, views)),
+      psnr_db_(static_cast<std::size_t>(views.count()), -1.0),
+      depth_errors_(static_cast<std::size_t>(views.count()), -1.0) {
   gaussians_.upload(context_, initial);
   if (options_.largest_growth > 0.0) {
     std::vector<float> bound = initial.log_scales;
     for (float& log_scale : bound) log_scale += static_cast<float>(std::log(options_.largest_growth));
     largest_log_scales_ = compute::Buffer<float>(context_, bound);
+  }
+  if (options_.surface.any()) anchors_ = compute::Buffer<float>(context_, surface_anchors(initial));
+  if (options_.densify.method == DensifyMethod::split) {
+    pulls_ = compute::Buffer<float>(context_, std::vector<float>(initial.size(), 0.0F));
+    seen_ = compute::Buffer<float>(context_, std::vector<float>(initial.size(), 0.0F));
   }
 }
 
@@ -175,60 +147,38 @@ int Trainer::view_at(int iteration) {
   return order_[static_cast<std::size_t>(iteration % count)];
 }
 
-void Trainer::load_target(int view, int level) {
-  ColorImage image = views_.color(view);
-  camera_ = views_.camera(view);
-  if (image.cols != camera_.width || image.rows != camera_.height)
-    throw InputError("training", "view " + std::to_string(view),
-                     "its image is " + std::to_string(image.cols) + " x " + std::to_string(image.rows) +
-                         ", its camera " + std::to_string(camera_.width) + " x " + std::to_string(camera_.height));
-  for (int l = 0; l < level && std::min(image.cols, image.rows) >= 2; ++l) {
-    image = halve(image);
-    camera_ = camera_.level(1);
-  }
-  const auto plane = static_cast<std::size_t>(image.cols) * static_cast<std::size_t>(image.rows);
-  planes_.resize(3 * plane);
-  bool finite = true;
-  for (int y = 0; y < image.rows; ++y) {
-    const cv::Vec3f* row = image[y];
-    const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.cols);
-    for (int x = 0; x < image.cols; ++x) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        const float value = row[x][static_cast<int>(c)];
-        finite = finite && std::isfinite(value);
-        planes_[c * plane + begin + static_cast<std::size_t>(x)] = value;
-      }
-    }
-  }
-  if (!finite)
-    throw InputError("training", "view " + std::to_string(view), "its image holds values that are not finite");
-  target_.resize(context_, planes_.size());
-  target_.upload(planes_);
-}
-
 TrainingStep Trainer::step() {
   if (done()) return last_;
   const auto start = std::chrono::steady_clock::now();
   const int view = view_at(iteration_);
   const int level = level_at(iteration_);
-  load_target(view, level);
+  targets_.load(view, level);
+  const Camera& camera = targets_.camera();
 
   RenderRequest request;
   request.color = true;
-  request.depth = false;
+  request.depth = with_depth();
   request.sh_degree = options_.sh_interval == 0 ? gaussians_.sh_degree
                                                 : std::min(gaussians_.sh_degree, iteration_ / options_.sh_interval);
-  rasterizer_.forward(gaussians_, camera_, views_.T_world_camera(view), request, rendered_);
-  loss_.evaluate(rendered_.color, target_, camera_.width, camera_.height, image_gradients_.color);
+  rasterizer_.forward(gaussians_, camera, views_.T_world_camera(view), request, rendered_);
+  if (exposures_.on()) exposures_.apply(view, rendered_.color, exposed_);
+  loss_.evaluate(exposures_.on() ? exposed_ : rendered_.color, targets_.color(), camera.width, camera.height,
+                 image_gradients_.color);
+  if (exposures_.on())
+    exposures_.backward(view, rendered_.color, camera.width, camera.height, image_gradients_.color);
+  if (with_depth())
+    depth_loss_.evaluate(rendered_.depth, targets_.depth(), targets_.depth_weight(), camera.width, camera.height,
+                         image_gradients_.depth);
   rasterizer_.backward(gaussians_, image_gradients_, gradients_);
+  if (!anchors_.empty()) surface_terms_.add(gaussians_, anchors_, gradients_);
   update();
   ++iteration_;
-
-  last_ = {iteration_, view, level, loss_.value()};
+  last_ = {iteration_, view, level, loss_.value(), with_depth() ? depth_loss_.mean_relative_error() : 0.0};
   if (level == 0) {
     psnr_db_[static_cast<std::size_t>(view)] = last_.value.psnr_db();
-    psnr_known_[static_cast<std::size_t>(view)] = true;
+    if (with_depth()) depth_errors_[static_cast<std::size_t>(view)] = last_.depth_error;
   }
+  if (densifies()) densify();
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return last_;
 }
@@ -245,7 +195,58 @@ void Trainer::update() {
     rotations_.step(gaussians_.rotations, gradients_.rotations, fade * options_.rotation_rate);
   opacity_logits_.step(gaussians_.opacity_logits, gradients_.opacity_logits, fade * options_.opacity_rate);
   sh_.step(gaussians_.sh, gradients_.sh, fade * options_.color_rate);
+  if (!pulls_.empty()) {
+    const float scale = 0.5F * static_cast<float>(std::max(targets_.camera().width, targets_.camera().height));
+    screen_statistics_(compute::Range::linear(gaussians_.size(), ITEM_GROUP),
+                       static_cast<std::int32_t>(gaussians_.size()), rasterizer_.tile_counts(),
+                       rasterizer_.screen_gradients(), scale, pulls_, seen_);
+  }
 }
+
+bool Trainer::densifies() const {
+  const DensifyOptions& d = options_.densify;
+  return d.method != DensifyMethod::none && iteration_ >= d.from && iteration_ % d.interval == 0 &&
+         iteration_ <= d.until_share * options_.iterations;
+}
+
+void Trainer::densify() {
+  const DensifyOptions& d = options_.densify;
+  // After a reset the opacities say nothing until every view had its turn (as in the public trainers).
+  const bool settled = d.reset_interval == 0 || iteration_ % d.reset_interval > views_.count() + 100;
+  Random random(options_.seed ^ (0xd1342543de82ef95ULL * static_cast<std::uint64_t>(iteration_)));
+  if (settled || d.method == DensifyMethod::relocate) {
+    TrainingRows rows{gaussians_.download(), largest_log_scales_.download(), anchors_.download(), {}};
+    rows.from.resize(rows.size());
+    std::iota(rows.from.begin(), rows.from.end(), std::int64_t{0});
+    if (d.method == DensifyMethod::relocate)
+      relocate(rows, d, random);
+    else
+      clone_and_split(rows, d, pulls_.download(), seen_.download(), camera_extent_, random);
+    gaussians_.upload(context_, rows.gaussians);
+    if (!largest_log_scales_.empty())
+      largest_log_scales_ = compute::Buffer<float>(context_, rows.largest_log_scales);
+    if (!anchors_.empty()) anchors_ = compute::Buffer<float>(context_, rows.anchors);
+    for (Adam* optimiser : optimisers()) optimiser->rearrange(rows.from);
+    if (!pulls_.empty()) {
+      pulls_ = compute::Buffer<float>(context_, std::vector<float>(rows.size(), 0.0F));
+      seen_ = compute::Buffer<float>(context_, std::vector<float>(rows.size(), 0.0F));
+    }
+  }
+  if (d.method == DensifyMethod::split && d.reset_interval > 0 && iteration_ > d.reset_interval &&
+      iteration_ % d.reset_interval < d.interval)
+    reset_opacities();
+}
+
+void Trainer::reset_opacities() {
+  const double opacity = options_.densify.reset_opacity;
+  const auto highest = static_cast<float>(std::log(opacity / (1.0 - opacity)));
+  std::vector<float> logits = gaussians_.opacity_logits.download();
+  for (float& logit : logits) logit = std::min(logit, highest);
+  gaussians_.opacity_logits.upload(logits);
+  opacity_logits_.rearrange(std::vector<std::int64_t>(logits.size(), -1));
+}
+
+std::vector<Adam*> Trainer::optimisers() { return {&positions_, &log_scales_, &rotations_, &opacity_logits_, &sh_}; }
 
 TrainingReport Trainer::report() const {
   TrainingReport report;
@@ -253,14 +254,8 @@ TrainingReport Trainer::report() const {
   report.gaussians = gaussians_.size();
   report.seconds = seconds_;
   report.iterations_per_second = seconds_ > 0.0 ? iteration_ / seconds_ : 0.0;
-  double sum = 0.0;
-  int known = 0;
-  for (std::size_t i = 0; i < psnr_db_.size(); ++i) {
-    if (!psnr_known_[i]) continue;
-    sum += psnr_db_[i];
-    ++known;
-  }
-  report.psnr_db = known > 0 ? sum / known : 0.0;
+  report.psnr_db = mean_of_known(psnr_db_);
+  report.depth_error = mean_of_known(depth_errors_);
   return report;
 }
 

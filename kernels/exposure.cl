@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: Apache-2.0
+   Copyright 2026 The odosplat authors
+
+   Exposure of an image: channel c of the rendered image becomes gain_c * value + offset_c (settings: gains, offsets). */
+__kernel void expose(int pixels, const __global float* restrict rendered, float8 settings, __global float* restrict exposed) {
+  const int i = get_global_id(0);
+  if (i >= pixels) return;
+  exposed[i] = settings.s0 * rendered[i] + settings.s3;
+  exposed[pixels + i] = settings.s1 * rendered[pixels + i] + settings.s4;
+  exposed[2 * pixels + i] = settings.s2 * rendered[2 * pixels + i] + settings.s5;
+}
+
+/* gradient [3 x height x width]: by the exposed image, becomes by the rendered one. rows [2 x 3 x height]: sums over a
+   row of the derivatives by gain and by offset. An item a row of a channel. */
+__kernel void expose_backward(int width, int height, const __global float* restrict rendered, float8 settings,
+                              __global float* restrict gradient, __global float* restrict rows) {
+  const int item = get_global_id(0);
+  if (item >= 3 * height) return;
+  const int channel = item / height;
+  const float gain = channel == 0 ? settings.s0 : channel == 1 ? settings.s1 : settings.s2;
+  float by_gain = 0.0f, by_offset = 0.0f;
+  for (int x = 0; x < width; ++x) {
+    const int i = item * width + x;
+    const float g = gradient[i];
+    by_gain += g * rendered[i];
+    by_offset += g;
+    gradient[i] = gain * g;
+  }
+  rows[item] = by_gain;
+  rows[3 * height + item] = by_offset;
+}

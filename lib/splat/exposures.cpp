@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/splat/exposures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/kernels/constants.h"
+
+namespace odosplat {
+
+using compute::Range;
+
+namespace {
+constexpr double beta1 = 0.9;
+constexpr double beta2 = 0.999;
+}  // namespace
+
+void ExposureOptions::check() const {
+  require(rate >= 0.0 && std::isfinite(rate), "exposure_rate", "at least 0");
+  require(steadiness >= 0.0 && std::isfinite(steadiness), "exposure_steadiness", "at least 0");
+}
+
+Exposures::Exposures(const compute::Context& context, const ExposureOptions& options, int views)
+    : options_((options.check(), options)),
+      context_(context),
+      expose_(compute::Program(context, {"exposure.cl"}).kernel("expose")),
+      backward_(compute::Program(context, {"exposure.cl"}).kernel("expose_backward")),
+      state_(row * static_cast<std::size_t>(views), 0.0) {
+  for (std::size_t v = 0; v < static_cast<std::size_t>(views); ++v)
+    std::fill_n(state_.begin() + static_cast<std::ptrdiff_t>(v * row), 3, 1.0);
+}
+
+std::array<double, Exposures::settings> Exposures::of(int view) const {
+  std::array<double, settings> values{};
+  std::copy_n(state_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(view) * row), settings,
+              values.begin());
+  return values;
+}
+
+std::array<float, 8> Exposures::kernel_settings(int view) const {
+  std::array<float, 8> values{};
+  const auto exact = of(view);
+  std::transform(exact.begin(), exact.end(), values.begin(), [](double v) { return static_cast<float>(v); });
+  return values;
+}
+
+void Exposures::apply(int view, const compute::Buffer<float>& rendered, compute::Buffer<float>& exposed) {
+  exposed.resize(context_, rendered.size());
+  const std::size_t pixels = rendered.size() / 3;
+  expose_(Range::linear(pixels, ITEM_GROUP), static_cast<std::int32_t>(pixels), rendered, kernel_settings(view),
+          exposed);
+}
+
+void Exposures::backward(int view, const compute::Buffer<float>& rendered, int width, int height,
+                         compute::Buffer<float>& gradient) {
+  const auto lines = static_cast<std::size_t>(3 * height);
+  rows_.resize(context_, 2 * lines);
+  backward_(Range::linear(lines, 8), std::int32_t{width}, std::int32_t{height}, rendered, kernel_settings(view),
+            gradient, rows_);
+  const std::vector<float> rows = rows_.download();
+  double* mine = &state_[static_cast<std::size_t>(view) * row];
+  double* first = mine + settings;
+  double* second = first + settings;
+  const double steps = ++mine[row - 1];
+  for (std::size_t k = 0; k < settings; ++k) {
+    double slope = 0.0;
+    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
+      slope += static_cast<double>(rows[k * static_cast<std::size_t>(height) + y]);
+    slope += 2.0 * options_.steadiness * (mine[k] - (k < 3 ? 1.0 : 0.0)) / static_cast<double>(settings);
+    first[k] = beta1 * first[k] + (1.0 - beta1) * slope;
+    second[k] = beta2 * second[k] + (1.0 - beta2) * slope * slope;
+    mine[k] -= options_.rate * (first[k] / (1.0 - std::pow(beta1, steps))) /
+               (std::sqrt(second[k] / (1.0 - std::pow(beta2, steps))) + 1e-12);
+  }
+}
+
+void Exposures::set_state(const std::vector<double>& state) {
+  require(state.size() == state_.size(), "exposures", "those of " + std::to_string(state_.size() / row) + " views");
+  state_ = state;
+}
+
+}  // namespace odosplat

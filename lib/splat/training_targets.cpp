@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/splat/training_targets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "odosplat/core/error.hpp"
+
+namespace odosplat {
+
+namespace {
+// Depth whose standard deviation is this share of it counts half.
+constexpr float uncertain_share = 0.01F;
+}  // namespace
+
+TrainingTargets::TrainingTargets(const compute::Context& context, TrainingViews& views, MapView* surface,
+                                 std::size_t cache_bytes)
+    : context_(context), views_(views), surface_(surface), room_(cache_bytes) {}
+
+void TrainingTargets::load(int view, int level) {
+  load_color(view, level);
+  if (surface_ != nullptr) load_depth(view, level);
+}
+
+void TrainingTargets::load_color(int view, int level) {
+  ColorImage image = views_.color(view);
+  camera_ = views_.camera(view);
+  if (image.cols != camera_.width || image.rows != camera_.height)
+    throw InputError("training", "view " + std::to_string(view),
+                     "its image is " + std::to_string(image.cols) + " x " + std::to_string(image.rows) +
+                         ", its camera " + std::to_string(camera_.width) + " x " + std::to_string(camera_.height));
+  for (int l = 0; l < level && std::min(image.cols, image.rows) >= 2; ++l) {
+    image = halve(image);
+    camera_ = camera_.level(1);
+  }
+  const auto plane = static_cast<std::size_t>(image.cols) * static_cast<std::size_t>(image.rows);
+  values_.resize(3 * plane);
+  bool finite = true;
+  for (int y = 0; y < image.rows; ++y) {
+    const cv::Vec3f* row = image[y];
+    const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.cols);
+    for (int x = 0; x < image.cols; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float value = row[x][static_cast<int>(c)];
+        finite = finite && std::isfinite(value);
+        values_[c * plane + begin + static_cast<std::size_t>(x)] = value;
+      }
+    }
+  }
+  if (!finite)
+    throw InputError("training", "view " + std::to_string(view), "its image holds values that are not finite");
+  color_.resize(context_, values_.size());
+  color_.upload(values_);
+}
+
+TrainingTargets::Stored TrainingTargets::render_depth(int view) const {
+  const ViewImages images = surface_->render(camera_, views_.T_world_camera(view), {});
+  const auto pixels = static_cast<std::size_t>(images.depth.total());
+  Stored stored;
+  stored.depth.resize(pixels);
+  stored.weight.resize(pixels);
+  double largest = 0.0;
+  cv::minMaxLoc(images.depth, nullptr, &largest);
+  // 65535 steps up to the largest depth: a tenth of a millimetre in a room.
+  stored.unit = static_cast<float>(largest / 65535.0);
+  if (!(stored.unit > 0.0F)) return stored;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const float z = images.depth[0][i];
+    if (!(z > 0.0F)) continue;
+    stored.depth[i] = static_cast<std::uint16_t>(std::lround(z / stored.unit));
+    const float relative = images.sigma.empty() ? 0.0F : images.sigma[0][i] / (uncertain_share * z);
+    stored.weight[i] = static_cast<std::uint8_t>(std::lround(255.0F / (1.0F + relative * relative)));
+  }
+  static const int radius = std::getenv("X_EDGE") ? std::atoi(std::getenv("X_EDGE")) : 0;
+  static const float jump = std::getenv("X_JUMP") ? static_cast<float>(std::atof(std::getenv("X_JUMP"))) : 0.05F;
+  if (radius > 0) {
+    const cv::Mat1f& d = images.depth;
+    for (int y = 0; y < d.rows; ++y) for (int x = 0; x < d.cols; ++x) {
+      bool edge = false;
+      for (int v = std::max(0, y - radius); v <= std::min(d.rows - 1, y + radius); ++v)
+        for (int u = std::max(0, x - radius); u <= std::min(d.cols - 1, x + radius); ++u)
+          edge = edge || !(d(v, u) > 0.0F) || std::abs(d(v, u) - d(y, x)) > jump * d(y, x);
+      if (edge) stored.weight[static_cast<std::size_t>(y * d.cols + x)] = 0;
+    }
+  }
+  return stored;
+}
+
+void TrainingTargets::load_depth(int view, int level) {
+  const std::pair<int, int> key(view, level);
+  auto found = cache_.find(key);
+  Stored fresh;
+  if (found == cache_.end()) {
+    fresh = render_depth(view);
+    if (fresh.bytes() <= room_) {
+      room_ -= fresh.bytes();
+      found = cache_.emplace(key, std::move(fresh)).first;
+    }
+  }
+  const Stored& stored = found != cache_.end() ? found->second : fresh;
+  values_.resize(stored.depth.size());
+  std::transform(stored.depth.begin(), stored.depth.end(), values_.begin(),
+                 [&](std::uint16_t steps) { return stored.unit * static_cast<float>(steps); });
+  depth_.resize(context_, values_.size());
+  depth_.upload(values_);
+  std::transform(stored.weight.begin(), stored.weight.end(), values_.begin(),
+                 [](std::uint8_t weight) { return static_cast<float>(weight) / 255.0F; });
+  weight_.resize(context_, values_.size());
+  weight_.upload(values_);
+}
+
+}  // namespace odosplat
