@@ -24,15 +24,15 @@ RasterPairs::RasterPairs(const compute::Context& context, const compute::Program
       long_chunks_(long_chunks),
       scan_(context),
       sort_(context),
-      count_tiles_(program.kernel("count_tiles")),
-      emit_pairs_(program.kernel("emit_pairs")),
-      bin_histogram_(program.kernel("bin_histogram")),
-      bin_totals_(program.kernel("bin_totals")),
-      bin_cursors_(program.kernel("bin_cursors")),
-      bin_scatter_(program.kernel("bin_scatter")),
-      gather_counts_(program.kernel("gather_counts")),
-      order_pairs_(program.kernel("order_pairs")),
-      gather_pairs_(program.kernel("gather_pairs")) {}
+      count_tiles_(program.kernel("count_tiles", "count")),
+      emit_pairs_(program.kernel("emit_pairs", "bin")),
+      bin_histogram_(program.kernel("bin_histogram", "bin")),
+      bin_totals_(program.kernel("bin_totals", "bin")),
+      bin_cursors_(program.kernel("bin_cursors", "bin")),
+      bin_scatter_(program.kernel("bin_scatter", "bin")),
+      gather_counts_(program.kernel("gather_counts", "bin")),
+      order_pairs_(program.kernel("order_pairs", "bin")),
+      gather_pairs_(program.kernel("gather_pairs", "bin")) {}
 
 void RasterPairs::build(std::size_t n, const compute::Buffer<float>& boxes,
                         const compute::Buffer<std::uint32_t>& depth_keys, const std::array<std::int32_t, 4>& grid) {

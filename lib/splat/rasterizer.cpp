@@ -96,7 +96,7 @@ struct Rasterizer::Impl {
         options(o),
         shell(chosen_shell(o.shell, c)),
         program(c, {"raster_common.cl", "projection.cl", "project.cl", "tiles.cl"}),
-        project(program.kernel("project")),
+        project(program.kernel("project", "project")),
         pairs(c, program, shell == Shell::tile && c.is_cpu()) {}
 
   compute::Context context;
@@ -119,12 +119,12 @@ struct Rasterizer::Impl {
   bool ray_plane = false;
   int sh_degree = 0;
 
-  Kernel& kernel(const std::string& name, const std::vector<std::string>& files,
+  Kernel& kernel(const std::string& name, const std::vector<std::string>& files, const std::string& stage,
                  const std::string& build_options = "") {
     const std::string key = name + build_options;
     auto found = kernels.find(key);
     if (found == kernels.end()) {
-      found = kernels.emplace(key, Program(context, files, build_options).kernel(name)).first;
+      found = kernels.emplace(key, Program(context, files, build_options).kernel(name, stage)).first;
     }
     return found->second;
   }
@@ -149,8 +149,9 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, RenderOutput& o
           boxes, depth_keys);
   pairs.build(count, boxes, depth_keys, view.grid);
   if (request.color) {
-    kernel("shade", {"sh.cl", "shade.cl"})(items, n, gaussians.positions, gaussians.sh, std::int32_t{sh_degree},
-                                           std::int32_t{gaussians.coefficients()}, view.pose, pairs.counts(), colors);
+    kernel("shade", {"sh.cl", "shade.cl"}, "shade")(items, n, gaussians.positions, gaussians.sh,
+                                                    std::int32_t{sh_degree}, std::int32_t{gaussians.coefficients()},
+                                                    view.pose, pairs.counts(), colors);
   }
   const std::size_t pixels = static_cast<std::size_t>(view.grid[0]) * static_cast<std::size_t>(view.grid[1]);
   out.width = view.grid[0];
@@ -160,7 +161,7 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, RenderOutput& o
   out.alpha.resize(context, pixels);
   out.sigma.resize(context, request.sigma ? pixels : 0);
   Kernel& composite =
-      kernel("composite", {"raster_common.cl", "composite.cl"},
+      kernel("composite", {"raster_common.cl", "composite.cl"}, "composite",
              shell_options(forward_width) + define("WITH_COLOR", request.color) + define("WITH_SIGMA", request.sigma) +
                  define("DEPTH_MODE", mode_number(request.depth, request.depth_mode)));
   const Range range = shell == Shell::tile
@@ -185,7 +186,7 @@ void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGr
   const Buffer<float> none(context, 0);
   const auto image = [&](const Buffer<float>& b) -> const Buffer<float>& { return b.handle() == nullptr ? none : b; };
 
-  Kernel& composite_backward = kernel("composite_backward", {"raster_common.cl", "composite_backward.cl"},
+  Kernel& composite_backward = kernel("composite_backward", {"raster_common.cl", "composite_backward.cl"}, "backward",
                                       shell_options(backward_width) + images);
   const std::size_t group = shell == Shell::tile ? 1 : PIXEL_BATCH;
   if (pairs.size() > 0) {
@@ -196,13 +197,13 @@ void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGr
   const auto n = static_cast<std::int32_t>(count);
   const Range items = Range::linear(count, ITEM_GROUP);
   const std::vector<std::string> files = {"raster_common.cl", "projection.cl", "project_backward.cl"};
-  kernel("project_backward", files, images)(
+  kernel("project_backward", files, "backward", images)(
       items, n, gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
       view.lens, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane}, pairs.counts(),
       pairs.offsets(), slots, gradients.positions, gradients.log_scales, gradients.rotations, gradients.opacity_logits,
       color_gradients, screen_gradients, std::int32_t{with_pose}, pose_terms);
   if (color) {
-    kernel("shade_backward", {"sh.cl", "shade_backward.cl"})(
+    kernel("shade_backward", {"sh.cl", "shade_backward.cl"}, "backward")(
         items, n, gaussians.positions, gaussians.sh, std::int32_t{sh_degree}, std::int32_t{gaussians.coefficients()},
         view.pose, pairs.counts(), colors, color_gradients, gradients.positions, gradients.sh, std::int32_t{with_pose},
         pose_terms);
@@ -216,8 +217,8 @@ Vector6d Rasterizer::Impl::pose_gradient() {
   if (count == 0) return sum;
   const std::size_t chunks = (count + POSE_CHUNK - 1) / POSE_CHUNK;
   pose_sums.resize(context, 6 * chunks);
-  kernel("sum_pose_terms", {"pose_sum.cl"})(Range::linear(chunks, 1), static_cast<std::int32_t>(count), pose_terms,
-                                            pose_sums);
+  kernel("sum_pose_terms", {"pose_sum.cl"}, "backward")(Range::linear(chunks, 1), static_cast<std::int32_t>(count),
+                                                        pose_terms, pose_sums);
   const std::vector<float> sums = pose_sums.download();
   for (std::size_t i = 0; i < sums.size(); ++i) sum[static_cast<Eigen::Index>(i % 6)] += static_cast<double>(sums[i]);
   return sum;
