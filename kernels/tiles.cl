@@ -1,61 +1,152 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   Pairs of (Gaussian, tile). A pair's slot is its place in order of Gaussians, then tiles: there its gradients are kept.
+   Pairs of (Gaussian, tile): comes after projection.cl, whose vectors of GW Gaussians it uses. A pair's slot is its place in order of Gaussians, then tiles: there its gradients are kept.
    Result, for every tile: list[p], p in tile_start[tile] .. tile_start[tile + 1]: Gaussians from near to far, and
    slot[p]. All of it is integers in an order given by the data, so it does not depend on threads or chunks.
    Tile test: the span of the ellipse over a row of tiles (Hanson et al. 2024). count_tiles and emit_pairs must find the
-   same tiles to the bit: nothing in row_span leaves the compiler a choice of rounding (explicit fma, no other a * b + c). */
+   same tiles to the bit: nothing in row_range and row_span leaves the compiler a choice of rounding (explicit fma, no other
+   a * b + c). */
 
-/* Tiles of the tile row `row` that the ellipse reaches with a pixel centre: first and one past the last. */
-inline int2 row_span(float8 box, int row, int4 size) {
-  const float y0 = (float)(row * TILE_HEIGHT) - box.s1;
-  const float y1 = (float)min(row * TILE_HEIGHT + TILE_HEIGHT - 1, size.y - 1) - box.s1;
-  const float right_y = min(max(box.s7, y0), y1);
-  const float left_y = min(max(-box.s7, y0), y1);
-  const float right = box.s0 + fma(box.s4, right_y, sqrt(max(fma(-box.s6, right_y * right_y, box.s5), 0.0f)));
-  const float left = box.s0 + fma(box.s4, left_y, -sqrt(max(fma(-box.s6, left_y * left_y, box.s5), 0.0f)));
-  const int x0 = max(int_ceil(max(left, -1.0f)), 0);
-  const int x1 = min(int_floor(min(right, (float)size.x)), size.x - 1);
-  return x0 > x1 || x1 < 0 ? (int2)(0, 0) : (int2)(x0 / TILE_WIDTH, x1 / TILE_WIDTH + 1);
+/* The ellipses of GW Gaussians: centre, half sizes; x at height y above the centre: shear y +- sqrt(w0 - w1 y^2), with the
+   rightmost point at y = tilt. In memory field by field, GW values each. */
+typedef struct {
+  gF u, v, half_x, half_y, shear, w0, w1, tilt;
+} Ellipse;
+
+#if GW == 8
+#define LOAD_FIELD(p) vload8(0, p)
+#define STORE_FIELD(v, p) vstore8(v, 0, p)
+#define STORE_INTS(v, p) vstore8(v, 0, p)
+#define LOAD_INTS(p) vload8(0, p)
+#else
+#define LOAD_FIELD(p) (*(p))
+#define STORE_FIELD(v, p) (*(p) = (v))
+#define STORE_INTS(v, p) (*(p) = (v))
+#define LOAD_INTS(p) (*(p))
+#endif
+
+inline void store_ellipse(global float* restrict boxes, int item, const Ellipse* e) {
+  global float* to = boxes + (size_t)item * (8 * GW);
+  STORE_FIELD(e->u, to);
+  STORE_FIELD(e->v, to + GW);
+  STORE_FIELD(e->half_x, to + 2 * GW);
+  STORE_FIELD(e->half_y, to + 3 * GW);
+  STORE_FIELD(e->shear, to + 4 * GW);
+  STORE_FIELD(e->w0, to + 5 * GW);
+  STORE_FIELD(e->w1, to + 6 * GW);
+  STORE_FIELD(e->tilt, to + 7 * GW);
+}
+inline Ellipse load_ellipse(global const float* restrict boxes, int item) {
+  global const float* from = boxes + (size_t)item * (8 * GW);
+  Ellipse e;
+  e.u = LOAD_FIELD(from);
+  e.v = LOAD_FIELD(from + GW);
+  e.half_x = LOAD_FIELD(from + 2 * GW);
+  e.half_y = LOAD_FIELD(from + 3 * GW);
+  e.shear = LOAD_FIELD(from + 4 * GW);
+  e.w0 = LOAD_FIELD(from + 5 * GW);
+  e.w1 = LOAD_FIELD(from + 6 * GW);
+  e.tilt = LOAD_FIELD(from + 7 * GW);
+  return e;
 }
 
-/* Rows of tiles that the box reaches: first and one past the last. */
-inline int2 row_range(float8 box, int4 size) {
-  const int y0 = max(int_ceil(max(box.s1 - box.s3, -1.0f)), 0);
-  const int y1 = min(int_floor(min(box.s1 + box.s3, (float)size.y)), size.y - 1);
-  return y0 > y1 || y1 < 0 ? (int2)(0, 0) : (int2)(y0 / TILE_HEIGHT, y1 / TILE_HEIGHT + 1);
+inline gI floor_g(gF x) {
+  const gI t = to_gI(x);
+  return t + GMASK(x < CONVERT_GF(t));
+}
+inline gI ceil_g(gF x) {
+  const gI t = to_gI(x);
+  return t - GMASK(x > CONVERT_GF(t));
 }
 
-/* size: width, height, tiles a row, rows of tiles. */
-kernel void count_tiles(int n, global const float8* restrict boxes, global const uint* restrict depth_keys, int4 size,
-                        global uint* restrict counts) {
-  const int g = get_global_id(0);
-  if (g >= n) return;
-  uint count = 0;
-  if (depth_keys[g] != 0xffffffffu) {
-    const float8 box = boxes[g];
-    const int2 rows = row_range(box, size);
-    for (int row = rows.x; row < rows.y; ++row) {
-      const int2 span = row_span(box, row, size);
-      count += (uint)(span.y - span.x);
+/* Rows of tiles that each ellipse reaches: the first, and how many. */
+inline gI row_range(const Ellipse* e, int4 size, gI* rows) {
+  const gI y0 = max(ceil_g(max(e->v - e->half_y, -1.0f)), 0);
+  const gI y1 = min(floor_g(min(e->v + e->half_y, (float)size.y)), size.y - 1);
+  const gI first = y0 / TILE_HEIGHT;
+  *rows = (y1 / TILE_HEIGHT + 1 - first) & GMASK((y0 <= y1) & (y1 >= 0));
+  return first;
+}
+
+/* Tiles of each one's tile row `row` that hold a pixel centre inside the ellipse: the first, and how many. */
+inline gI row_span(const Ellipse* e, gI row, int4 size, gI* tiles) {
+  const gF y0 = CONVERT_GF(row * TILE_HEIGHT) - e->v;
+  const gF y1 = CONVERT_GF(min(row * TILE_HEIGHT + (TILE_HEIGHT - 1), size.y - 1)) - e->v;
+  const gF right_y = min(max(e->tilt, y0), y1);
+  const gF left_y = min(max(-e->tilt, y0), y1);
+  const gF right = e->u + fma(e->shear, right_y, sqrt(max(fma(-e->w1, right_y * right_y, e->w0), 0.0f)));
+  const gF left = e->u + fma(e->shear, left_y, -sqrt(max(fma(-e->w1, left_y * left_y, e->w0), 0.0f)));
+  const gI x0 = max(ceil_g(max(left, -1.0f)), 0);
+  const gI x1 = min(floor_g(min(right, (float)size.x)), size.x - 1);
+  const gI first = x0 / TILE_WIDTH;
+  *tiles = (x1 / TILE_WIDTH + 1 - first) & GMASK((x0 <= x1) & (x1 >= 0));
+  return first;
+}
+
+/* Which tiles are made at all: where `sparse`, those with bits in `wanted`. */
+#define WANTED_ARGUMENTS int sparse, global const uint *restrict wanted
+#define WANTED sparse, wanted
+
+/* Tiles that each of the ellipses reaches, 0 for those not drawn. */
+inline void count_tiles(const Ellipse* box, const int* drawn, int4 size, WANTED_ARGUMENTS, uint* count) {
+  gI rows;
+  const gI row0 = row_range(box, size, &rows);
+  rows &= LOAD_INTS(drawn);
+  int row_first[GW], used[GW], begin[GW], tiles[GW];
+  STORE_INTS(row0, row_first);
+  STORE_INTS(rows, used);
+  int most = 0;
+  for (int i = 0; i < GW; ++i) {
+    count[i] = 0;
+    most = max(most, used[i]);
+  }
+  for (int k = 0; k < most; ++k) {
+    gI span;
+    const gI left = row_span(box, row0 + k, size, &span);
+    STORE_INTS(left, begin);
+    STORE_INTS(span, tiles);
+    for (int i = 0; i < GW; ++i) {
+      if (k >= used[i]) continue;
+      if (!sparse) {
+        count[i] += (uint)tiles[i];
+      } else {
+        global const uint* asked = wanted + (row_first[i] + k) * size.z + begin[i];
+        for (int t = 0; t < tiles[i]; ++t) count[i] += asked[t] != 0;
+      }
     }
   }
-  counts[g] = count;
 }
 
-/* One item a Gaussian: its tiles into the slots offsets[g] .. offsets[g + 1]. */
-kernel void emit_pairs(int n, global const float8* restrict boxes, global const uint* restrict offsets, int4 size,
-                       global uint* restrict slot_tile) {
-  const int g = get_global_id(0);
+/* One item GW Gaussians: their tiles into the slots offsets[g] .. offsets[g + 1]. */
+kernel void emit_pairs(int n, global const float* restrict boxes, global const uint* restrict offsets, int4 size,
+                       WANTED_ARGUMENTS, global uint* restrict slot_tile) {
+  const int item = get_global_id(0), g = item * GW;
   if (g >= n) return;
-  uint e = offsets[g];
-  const uint end = offsets[g + 1];
-  if (e == end) return;
-  const float8 box = boxes[g];
-  const int2 rows = row_range(box, size);
-  for (int row = rows.x; row < rows.y; ++row) {
-    const int2 span = row_span(box, row, size);
-    for (int tile = span.x; tile < span.y && e < end; ++tile, ++e) slot_tile[e] = (uint)(row * size.z + tile);
+  uint place[GW], end[GW];
+  for (int i = 0; i < GW; ++i) {
+    place[i] = offsets[min(g + i, n)];
+    end[i] = offsets[min(g + i + 1, n)];
+  }
+  if (place[0] == end[GW - 1]) return;
+  const Ellipse box = load_ellipse(boxes, item);
+  gI rows;
+  const gI row0 = row_range(&box, size, &rows);
+  int row_first[GW], begin[GW], tiles[GW];
+  STORE_INTS(row0, row_first);
+  for (int k = 0, more = 1; more && k < size.w; ++k) {
+    gI span;
+    const gI left = row_span(&box, row0 + k, size, &span);
+    STORE_INTS(left, begin);
+    STORE_INTS(span, tiles);
+    more = 0;
+    for (int i = 0; i < GW; ++i) {
+      const int row = (row_first[i] + k) * size.z;
+      for (int t = 0; t < tiles[i] && place[i] < end[i]; ++t) {
+        const int tile = row + begin[i] + t;
+        if (!sparse || wanted[tile] != 0) slot_tile[place[i]++] = (uint)tile;
+      }
+      more |= place[i] < end[i];
+    }
   }
 }
 

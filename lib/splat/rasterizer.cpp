@@ -23,10 +23,9 @@ using compute::Kernel;
 using compute::Program;
 using compute::Range;
 
-// Pixels of a row that the tile shell handles at once: on AVX-512, 8 cost 20 to 30 % more.
-constexpr int forward_width = 16;
-constexpr int backward_width = 16;
-constexpr int splat_floats = 12;  // SPLAT_VECTORS of four
+constexpr int block_pixels = 16;  // that the tile shell handles at once, as a vector
+constexpr std::size_t cpu_lanes = 8;
+constexpr int splat_floats = 16;  // SPLAT_VECTORS of four
 constexpr int box_floats = 8;
 constexpr std::size_t max_pixels = std::size_t{1} << 28;
 static_assert(RasterizerOptions{}.dilation == DILATION);
@@ -95,20 +94,26 @@ struct Rasterizer::Impl {
       : context(c),
         options(o),
         shell(chosen_shell(o.shell, c)),
-        program(c, {"raster_common.cl", "projection.cl", "project.cl", "tiles.cl"}),
+        lanes(shell == Shell::tile ? cpu_lanes : 1),
+        program(c, {"raster_common.cl", "projection.cl", "tiles.cl", "project.cl"},
+                define("GW", static_cast<int>(lanes))),
         project(program.kernel("project", "project")),
-        pairs(c, program, shell == Shell::tile && c.is_cpu()) {}
+        pairs(c, program, shell == Shell::tile && c.is_cpu()),
+        selected(c, 0),
+        all_tiles{0, Buffer<std::uint32_t>(c, 0)} {}
 
   compute::Context context;
   RasterizerOptions options;
   Shell shell;
+  std::size_t lanes;  // Gaussians that an item of the projection takes
   Program program;
   Kernel project;
   RasterPairs pairs;
   std::map<std::string, Kernel> kernels;  // built when first needed, by name and build options
 
-  Buffer<float> splats, boxes, colors, color_gradients, screen_gradients, slots, pose_terms, pose_sums;
-  Buffer<std::uint32_t> depth_keys;
+  Buffer<float> splats, boxes, color_gradients, screen_gradients, slots, pose_terms, pose_sums;
+  Buffer<std::uint32_t> depth_keys, counts, selected;
+  WantedTiles all_tiles;
 
   // The last forward.
   bool rendered = false;
@@ -128,8 +133,8 @@ struct Rasterizer::Impl {
     }
     return found->second;
   }
-  std::string shell_options(int width) const {
-    return shell == Shell::tile ? define("SHELL_TILE", 1) + define("VW", width) : define("SHELL_TILE", 0);
+  std::string shell_options() const {
+    return shell == Shell::tile ? define("SHELL_TILE", 1) + define("VW", block_pixels) : define("SHELL_TILE", 0);
   }
   void forward(const DeviceGaussians& gaussians, RenderOutput& out);
   void backward(const DeviceGaussians& gaussians, const OutputGradients& given, DeviceGaussians& gradients,
@@ -141,17 +146,18 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, RenderOutput& o
   const auto n = static_cast<std::int32_t>(count);
   const Range items = Range::linear(count, ITEM_GROUP);
   splats.resize(context, splat_floats * count);
-  boxes.resize(context, box_floats * count);
+  boxes.resize(context, box_floats * (count + lanes));
   depth_keys.resize(context, count);
-  colors.resize(context, request.color ? 4 * count : 0);
-  project(items, n, gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
-          view.lens, view.grid, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane}, splats,
-          boxes, depth_keys);
-  pairs.build(count, boxes, depth_keys, view.grid);
+  counts.resize(context, count);
+  project(Range::linear((count + lanes - 1) / lanes, lanes > 1 ? 1 : ITEM_GROUP), n, std::int32_t{0}, selected,
+          gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
+          view.lens, view.grid, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane},
+          all_tiles.sparse, all_tiles.blocks, splats, boxes, depth_keys, counts);
+  pairs.build(count, lanes, boxes, depth_keys, counts, view.grid, all_tiles);
   if (request.color) {
-    kernel("shade", {"sh.cl", "shade.cl"}, "shade")(items, n, gaussians.positions, gaussians.sh,
-                                                    std::int32_t{sh_degree}, std::int32_t{gaussians.coefficients()},
-                                                    view.pose, pairs.counts(), colors);
+    kernel("shade", {"raster_common.cl", "sh.cl", "shade.cl"}, "shade")(
+        items, n, gaussians.positions, gaussians.sh, std::int32_t{sh_degree}, std::int32_t{gaussians.coefficients()},
+        view.pose, counts, splats);
   }
   const std::size_t pixels = static_cast<std::size_t>(view.grid[0]) * static_cast<std::size_t>(view.grid[1]);
   out.width = view.grid[0];
@@ -162,14 +168,14 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, RenderOutput& o
   out.sigma.resize(context, request.sigma ? pixels : 0);
   Kernel& composite =
       kernel("composite", {"raster_common.cl", "composite.cl"}, "composite",
-             shell_options(forward_width) + define("WITH_COLOR", request.color) + define("WITH_SIGMA", request.sigma) +
+             shell_options() + define("WITH_COLOR", request.color) + define("WITH_SIGMA", request.sigma) +
                  define("DEPTH_MODE", mode_number(request.depth, request.depth_mode)));
   const Range range = shell == Shell::tile
                           ? Range::linear(view.tiles, 1)
                           : Range::grid(static_cast<std::size_t>(view.grid[2]) * TILE_WIDTH,
                                         static_cast<std::size_t>(view.grid[3]) * TILE_HEIGHT, TILE_WIDTH, TILE_HEIGHT);
-  composite(range, pairs.tile_start(), pairs.list(), splats, colors, view.grid, out.color, out.depth, out.alpha,
-            out.sigma);
+  composite(range, pairs.tile_start(), pairs.list(), splats, view.grid, out.color, out.depth, out.alpha, out.sigma,
+            all_tiles.sparse, all_tiles.blocks);
 }
 
 void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGradients& given,
@@ -186,12 +192,12 @@ void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGr
   const Buffer<float> none(context, 0);
   const auto image = [&](const Buffer<float>& b) -> const Buffer<float>& { return b.handle() == nullptr ? none : b; };
 
-  Kernel& composite_backward = kernel("composite_backward", {"raster_common.cl", "composite_backward.cl"}, "backward",
-                                      shell_options(backward_width) + images);
+  Kernel& composite_backward =
+      kernel("composite_backward", {"raster_common.cl", "composite_backward.cl"}, "backward", shell_options() + images);
   const std::size_t group = shell == Shell::tile ? 1 : PIXEL_BATCH;
   if (pairs.size() > 0) {
     composite_backward(Range::linear(view.tiles * group, group), pairs.tile_start(), pairs.list(), pairs.slot(), splats,
-                       colors, view.grid, std::int32_t{!given.alpha.empty()}, image(output.color), image(output.depth),
+                       view.grid, std::int32_t{!given.alpha.empty()}, image(output.color), image(output.depth),
                        output.alpha, image(given.color), image(given.depth), image(given.alpha), slots);
   }
   const auto n = static_cast<std::int32_t>(count);
@@ -199,13 +205,13 @@ void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGr
   const std::vector<std::string> files = {"raster_common.cl", "projection.cl", "project_backward.cl"};
   kernel("project_backward", files, "backward", images)(
       items, n, gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
-      view.lens, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane}, pairs.counts(),
-      pairs.offsets(), slots, gradients.positions, gradients.log_scales, gradients.rotations, gradients.opacity_logits,
-      color_gradients, screen_gradients, std::int32_t{with_pose}, pose_terms);
+      view.lens, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane}, counts, pairs.offsets(),
+      slots, gradients.positions, gradients.log_scales, gradients.rotations, gradients.opacity_logits, color_gradients,
+      screen_gradients, std::int32_t{with_pose}, pose_terms);
   if (color) {
-    kernel("shade_backward", {"sh.cl", "shade_backward.cl"}, "backward")(
+    kernel("shade_backward", {"raster_common.cl", "sh.cl", "shade_backward.cl"}, "backward")(
         items, n, gaussians.positions, gaussians.sh, std::int32_t{sh_degree}, std::int32_t{gaussians.coefficients()},
-        view.pose, pairs.counts(), colors, color_gradients, gradients.positions, gradients.sh, std::int32_t{with_pose},
+        view.pose, counts, splats, color_gradients, gradients.positions, gradients.sh, std::int32_t{with_pose},
         pose_terms);
   } else {
     gradients.sh.fill_zero();
@@ -271,7 +277,7 @@ void Rasterizer::backward(const DeviceGaussians& gaussians, const OutputGradient
 }
 
 const Buffer<float>& Rasterizer::screen_gradients() const { return impl_->screen_gradients; }
-const Buffer<std::uint32_t>& Rasterizer::tile_counts() const { return impl_->pairs.counts(); }
+const Buffer<std::uint32_t>& Rasterizer::tile_counts() const { return impl_->counts; }
 std::size_t Rasterizer::pairs() const { return impl_->pairs.size(); }
 Shell Rasterizer::shell() const { return impl_->shell; }
 const RasterizerOptions& Rasterizer::options() const { return impl_->options; }
