@@ -9,21 +9,6 @@
 /* The tile test takes ellipses this much larger in log2 alpha, so that rounding cannot lose a pixel. */
 #define TILE_TEST_MARGIN 1.0e-3f
 
-#if GW == 8
-inline gF gather_g(global const float* restrict values, gI at) {
-#define AT(i) values[at.s##i]
-  return (gF)EACH(AT);
-#undef AT
-}
-#define STORE_LANES(v, p) vstore8(v, 0, p)
-#else
-#define gather_g(values, at) ((values)[at])
-#define STORE_LANES(v, p) (*(p) = (v))
-#endif
-inline gV gather_gV(global const float* restrict values, gI at) {
-  return make_gV(gather_g(values, 3 * at), gather_g(values, 3 * at + 1), gather_g(values, 3 * at + 2));
-}
-
 kernel void project(int n, int select, global const uint* restrict selected, global const float* restrict positions,
                     global const float* restrict log_scales, global const float* restrict rotations,
                     global const float* restrict opacity_logits, float16 pose, float8 lens, int4 size, float dilation,
@@ -31,17 +16,7 @@ kernel void project(int n, int select, global const uint* restrict selected, glo
                     global float* restrict boxes, global uint* restrict depth_keys, global uint* restrict counts) {
   const int item = get_global_id(0), first = item * GW;
   if (first >= n) return;
-#if GW == 8
-  const gI place = min(first + LANES, n - 1);
-  gI at = place;
-  if (select) {
-#define AT(i) (int)selected[place.s##i]
-    at = (gI)EACH(AT);
-#undef AT
-  }
-#else
-  const gI at = select ? (int)selected[first] : first;
-#endif
+  const gI place = group_of(first, n), at = select ? gather_indices(selected, place) : place;
   const Projection s = project_one(gather_gV(positions, at), gather_gV(log_scales, at), gather_g(rotations, 4 * at),
                                    make_gV(gather_g(rotations, 4 * at + 1), gather_g(rotations, 4 * at + 2),
                                            gather_g(rotations, 4 * at + 3)),

@@ -36,6 +36,28 @@ typedef float3 gV;
 inline gV make_gV(gF x, gF y, gF z) { return (float3)(x, y, z); }
 #endif
 
+/* GW consecutive indices from `first` on, the last of n again beyond the end; values at GW places. */
+#if GW == 8
+inline gI group_of(int first, int n) { return min(first + LANES, n - 1); }
+#define AT(i) values[at.s##i]
+inline gF gather_g(global const float* restrict values, gI at) { return (gF)EACH(AT); }
+#undef AT
+#define AT(i) (int)values[at.s##i]
+inline gI gather_indices(global const uint* restrict values, gI at) { return (gI)EACH(AT); }
+#undef AT
+#define STORE_LANES(v, p) vstore8(v, 0, p)
+#define LOAD_LANES(p) vload8(0, p)
+#else
+inline gI group_of(int first, int n) { return min(first, n - 1); }
+#define gather_g(values, at) ((values)[at])
+#define gather_indices(values, at) ((int)(values)[at])
+#define STORE_LANES(v, p) (*(p) = (v))
+#define LOAD_LANES(p) (*(p))
+#endif
+inline gV gather_gV(global const float* restrict values, gI at) {
+  return make_gV(gather_g(values, 3 * at), gather_g(values, 3 * at + 1), gather_g(values, 3 * at + 2));
+}
+
 inline gF dot_g(gV a, gV b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline gV cross_g(gV a, gV b) {
   return make_gV(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);

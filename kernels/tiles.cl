@@ -13,40 +13,28 @@ typedef struct {
   gF u, v, half_x, half_y, shear, w0, w1, tilt;
 } Ellipse;
 
-#if GW == 8
-#define LOAD_FIELD(p) vload8(0, p)
-#define STORE_FIELD(v, p) vstore8(v, 0, p)
-#define STORE_INTS(v, p) vstore8(v, 0, p)
-#define LOAD_INTS(p) vload8(0, p)
-#else
-#define LOAD_FIELD(p) (*(p))
-#define STORE_FIELD(v, p) (*(p) = (v))
-#define STORE_INTS(v, p) (*(p) = (v))
-#define LOAD_INTS(p) (*(p))
-#endif
-
 inline void store_ellipse(global float* restrict boxes, int item, const Ellipse* e) {
   global float* to = boxes + (size_t)item * (8 * GW);
-  STORE_FIELD(e->u, to);
-  STORE_FIELD(e->v, to + GW);
-  STORE_FIELD(e->half_x, to + 2 * GW);
-  STORE_FIELD(e->half_y, to + 3 * GW);
-  STORE_FIELD(e->shear, to + 4 * GW);
-  STORE_FIELD(e->w0, to + 5 * GW);
-  STORE_FIELD(e->w1, to + 6 * GW);
-  STORE_FIELD(e->tilt, to + 7 * GW);
+  STORE_LANES(e->u, to);
+  STORE_LANES(e->v, to + GW);
+  STORE_LANES(e->half_x, to + 2 * GW);
+  STORE_LANES(e->half_y, to + 3 * GW);
+  STORE_LANES(e->shear, to + 4 * GW);
+  STORE_LANES(e->w0, to + 5 * GW);
+  STORE_LANES(e->w1, to + 6 * GW);
+  STORE_LANES(e->tilt, to + 7 * GW);
 }
 inline Ellipse load_ellipse(global const float* restrict boxes, int item) {
   global const float* from = boxes + (size_t)item * (8 * GW);
   Ellipse e;
-  e.u = LOAD_FIELD(from);
-  e.v = LOAD_FIELD(from + GW);
-  e.half_x = LOAD_FIELD(from + 2 * GW);
-  e.half_y = LOAD_FIELD(from + 3 * GW);
-  e.shear = LOAD_FIELD(from + 4 * GW);
-  e.w0 = LOAD_FIELD(from + 5 * GW);
-  e.w1 = LOAD_FIELD(from + 6 * GW);
-  e.tilt = LOAD_FIELD(from + 7 * GW);
+  e.u = LOAD_LANES(from);
+  e.v = LOAD_LANES(from + GW);
+  e.half_x = LOAD_LANES(from + 2 * GW);
+  e.half_y = LOAD_LANES(from + 3 * GW);
+  e.shear = LOAD_LANES(from + 4 * GW);
+  e.w0 = LOAD_LANES(from + 5 * GW);
+  e.w1 = LOAD_LANES(from + 6 * GW);
+  e.tilt = LOAD_LANES(from + 7 * GW);
   return e;
 }
 
@@ -91,10 +79,10 @@ inline gI row_span(const Ellipse* e, gI row, int4 size, gI* tiles) {
 inline void count_tiles(const Ellipse* box, const int* drawn, int4 size, WANTED_ARGUMENTS, uint* count) {
   gI rows;
   const gI row0 = row_range(box, size, &rows);
-  rows &= LOAD_INTS(drawn);
+  rows &= LOAD_LANES(drawn);
   int row_first[GW], used[GW], begin[GW], tiles[GW];
-  STORE_INTS(row0, row_first);
-  STORE_INTS(rows, used);
+  STORE_LANES(row0, row_first);
+  STORE_LANES(rows, used);
   int most = 0;
   for (int i = 0; i < GW; ++i) {
     count[i] = 0;
@@ -103,8 +91,8 @@ inline void count_tiles(const Ellipse* box, const int* drawn, int4 size, WANTED_
   for (int k = 0; k < most; ++k) {
     gI span;
     const gI left = row_span(box, row0 + k, size, &span);
-    STORE_INTS(left, begin);
-    STORE_INTS(span, tiles);
+    STORE_LANES(left, begin);
+    STORE_LANES(span, tiles);
     for (int i = 0; i < GW; ++i) {
       if (k >= used[i]) continue;
       if (!sparse) {
@@ -132,12 +120,12 @@ kernel void emit_pairs(int n, global const float* restrict boxes, global const u
   gI rows;
   const gI row0 = row_range(&box, size, &rows);
   int row_first[GW], begin[GW], tiles[GW];
-  STORE_INTS(row0, row_first);
+  STORE_LANES(row0, row_first);
   for (int k = 0, more = 1; more && k < size.w; ++k) {
     gI span;
     const gI left = row_span(&box, row0 + k, size, &span);
-    STORE_INTS(left, begin);
-    STORE_INTS(span, tiles);
+    STORE_LANES(left, begin);
+    STORE_LANES(span, tiles);
     more = 0;
     for (int i = 0; i < GW; ++i) {
       const int row = (row_first[i] + k) * size.z;
@@ -150,7 +138,23 @@ kernel void emit_pairs(int n, global const float* restrict boxes, global const u
   }
 }
 
-/* For CPUs, few long chunks: a stable counting sort by tile, one item a chunk of Gaussians consecutive in depth. */
+/* For CPUs, few long chunks: a stable counting sort by tile, one item a chunk of Gaussians consecutive in depth. Their pairs
+   lie at random places in memory: first the places of BIN_BATCH of them are read, then the first tile of each, so that
+   the reads do not wait for each other. */
+#define BIN_BATCH 16
+typedef struct {
+  uint g[BIN_BATCH], begin[BIN_BATCH], end[BIN_BATCH], tile[BIN_BATCH];
+} PairBatch;
+inline void load_pairs(PairBatch* b, int count, global const uint* restrict order, global const uint* restrict offsets,
+                       global const uint* restrict slot_tile) {
+  for (int i = 0; i < count; ++i) b->g[i] = order[i];
+  for (int i = 0; i < count; ++i) {
+    b->begin[i] = offsets[b->g[i]];
+    b->end[i] = offsets[b->g[i] + 1];
+  }
+  for (int i = 0; i < count; ++i) b->tile[i] = b->begin[i] < b->end[i] ? slot_tile[b->begin[i]] : 0u;
+}
+
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void bin_histogram(
     int n, int chunk_size, int tiles, global const uint* restrict order, global const uint* restrict offsets,
     global const uint* restrict slot_tile, global uint* restrict histogram) {
@@ -158,9 +162,15 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void bin_histogram(
   global uint* row = histogram + (size_t)chunk * (size_t)tiles;
   for (int t = 0; t < tiles; ++t) row[t] = 0;
   const int end = min(n, (chunk + 1) * chunk_size);
-  for (int r = chunk * chunk_size; r < end; ++r) {
-    const uint g = order[r], last = offsets[g + 1];
-    for (uint e = offsets[g]; e < last; ++e) ++row[slot_tile[e]];
+  for (int r = chunk * chunk_size; r < end; r += BIN_BATCH) {
+    const int count = min(BIN_BATCH, end - r);
+    PairBatch b;
+    load_pairs(&b, count, order + r, offsets, slot_tile);
+    for (int i = 0; i < count; ++i) {
+      if (b.begin[i] == b.end[i]) continue;
+      ++row[b.tile[i]];
+      for (uint e = b.begin[i] + 1; e < b.end[i]; ++e) ++row[slot_tile[e]];
+    }
   }
 }
 
@@ -192,12 +202,16 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void bin_scatter(
   const int chunk = get_global_id(0);
   global uint* cursor = cursors + (size_t)chunk * (size_t)tiles;
   const int end = min(n, (chunk + 1) * chunk_size);
-  for (int r = chunk * chunk_size; r < end; ++r) {
-    const uint g = order[r], last = offsets[g + 1];
-    for (uint e = offsets[g]; e < last; ++e) {
-      const uint p = cursor[slot_tile[e]]++;
-      list[p] = g;
-      slot[p] = e;
+  for (int r = chunk * chunk_size; r < end; r += BIN_BATCH) {
+    const int count = min(BIN_BATCH, end - r);
+    PairBatch b;
+    load_pairs(&b, count, order + r, offsets, slot_tile);
+    for (int i = 0; i < count; ++i) {
+      for (uint e = b.begin[i]; e < b.end[i]; ++e) {
+        const uint p = cursor[e == b.begin[i] ? b.tile[i] : slot_tile[e]]++;
+        list[p] = b.g[i];
+        slot[p] = e;
+      }
     }
   }
 }

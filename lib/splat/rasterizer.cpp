@@ -14,6 +14,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/kernels/constants.h"
 #include "odosplat/splat/raster_pairs.hpp"
+#include "odosplat/splat/viewpoint.hpp"
 
 namespace odosplat {
 namespace {
@@ -49,40 +50,6 @@ int mode_number(bool depth, DepthMode mode) {
   return mode == DepthMode::median ? 2 : 3;
 }
 
-// What of the camera and the pose the kernels take.
-struct Viewpoint {
-  std::array<float, 16> pose{};
-  std::array<float, 8> lens{};
-  std::array<std::int32_t, 4> grid{};  // width, height, tiles a row, rows of tiles
-  std::size_t tiles = 0;
-};
-
-Viewpoint make_viewpoint(const Camera& camera, const SE3& T_world_camera) {
-  Viewpoint view;
-  const SE3 T_camera_world = T_world_camera.inverse();
-  const Eigen::Matrix3d R = T_camera_world.rotation_matrix();
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) view.pose[static_cast<std::size_t>(3 * r + c)] = static_cast<float>(R(r, c));
-    view.pose[static_cast<std::size_t>(9 + r)] = static_cast<float>(T_camera_world.translation()[r]);
-    view.pose[static_cast<std::size_t>(12 + r)] = static_cast<float>(T_world_camera.translation()[r]);
-  }
-  const double margin_x = static_cast<double>(JACOBIAN_MARGIN) * 0.5 * camera.width / camera.fx;
-  const double margin_y = static_cast<double>(JACOBIAN_MARGIN) * 0.5 * camera.height / camera.fy;
-  view.lens = {static_cast<float>(camera.fx),
-               static_cast<float>(camera.fy),
-               static_cast<float>(camera.cx),
-               static_cast<float>(camera.cy),
-               static_cast<float>((-0.5 - camera.cx) / camera.fx - margin_x),
-               static_cast<float>((camera.width - 0.5 - camera.cx) / camera.fx + margin_x),
-               static_cast<float>((-0.5 - camera.cy) / camera.fy - margin_y),
-               static_cast<float>((camera.height - 0.5 - camera.cy) / camera.fy + margin_y)};
-  const int columns = (camera.width + TILE_WIDTH - 1) / TILE_WIDTH;
-  const int rows = (camera.height + TILE_HEIGHT - 1) / TILE_HEIGHT;
-  view.grid = {camera.width, camera.height, columns, rows};
-  view.tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  return view;
-}
-
 }  // namespace
 
 void RasterizerOptions::check() const {
@@ -99,8 +66,7 @@ struct Rasterizer::Impl {
                 define("GW", static_cast<int>(lanes))),
         project(program.kernel("project", "project")),
         pairs(c, program, shell == Shell::tile && c.is_cpu()),
-        selected(c, 0),
-        all_tiles{0, Buffer<std::uint32_t>(c, 0)} {}
+        everything{0, Buffer<std::uint32_t>(c, 0), {0, Buffer<std::uint32_t>(c, 0)}} {}
 
   compute::Context context;
   RasterizerOptions options;
@@ -112,8 +78,17 @@ struct Rasterizer::Impl {
   std::map<std::string, Kernel> kernels;  // built when first needed, by name and build options
 
   Buffer<float> splats, boxes, color_gradients, screen_gradients, slots, pose_terms, pose_sums;
-  Buffer<std::uint32_t> depth_keys, counts, selected;
-  WantedTiles all_tiles;
+  Buffer<std::uint32_t> depth_keys, counts;
+  std::unique_ptr<PixelSelection> selection;  // made when first needed
+  RenderOutput selected_images;               // whole images, of which only blocks with wanted pixels are made
+
+  // Which Gaussians to draw, all or those listed, and where.
+  struct Part {
+    std::int32_t select;
+    Buffer<std::uint32_t> gaussians;
+    WantedTiles tiles;
+  };
+  Part everything;
 
   // The last forward.
   bool rendered = false;
@@ -136,30 +111,33 @@ struct Rasterizer::Impl {
   std::string shell_options() const {
     return shell == Shell::tile ? define("SHELL_TILE", 1) + define("VW", block_pixels) : define("SHELL_TILE", 0);
   }
-  void forward(const DeviceGaussians& gaussians, RenderOutput& out);
+  void prepare(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
+               const RenderRequest& wanted);
+  void forward(const DeviceGaussians& gaussians, const Part& part, RenderOutput& out);
+  void forward_pixels(const DeviceGaussians& gaussians, const std::vector<PixelPlace>& pixels, RenderOutput& out);
   void backward(const DeviceGaussians& gaussians, const OutputGradients& given, DeviceGaussians& gradients,
                 bool with_pose);
   Vector6d pose_gradient();
 };
 
-void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, RenderOutput& out) {
+void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, const Part& part, RenderOutput& out) {
   const auto n = static_cast<std::int32_t>(count);
   const Range items = Range::linear(count, ITEM_GROUP);
   splats.resize(context, splat_floats * count);
   boxes.resize(context, box_floats * (count + lanes));
   depth_keys.resize(context, count);
   counts.resize(context, count);
-  project(Range::linear((count + lanes - 1) / lanes, lanes > 1 ? 1 : ITEM_GROUP), n, std::int32_t{0}, selected,
+  project(Range::linear((count + lanes - 1) / lanes, lanes > 1 ? 1 : ITEM_GROUP), n, part.select, part.gaussians,
           gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
           view.lens, view.grid, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane},
-          all_tiles.sparse, all_tiles.blocks, splats, boxes, depth_keys, counts);
-  pairs.build(count, lanes, boxes, depth_keys, counts, view.grid, all_tiles);
+          part.tiles.sparse, part.tiles.blocks, splats, boxes, depth_keys, counts);
+  pairs.build(count, lanes, boxes, depth_keys, counts, view.grid, part.tiles);
   if (request.color) {
     kernel("shade", {"raster_common.cl", "sh.cl", "shade.cl"}, "shade")(
-        items, n, gaussians.positions, gaussians.sh, std::int32_t{sh_degree}, std::int32_t{gaussians.coefficients()},
-        view.pose, counts, splats);
+        items, n, part.select, part.gaussians, gaussians.positions, gaussians.sh, std::int32_t{sh_degree},
+        std::int32_t{gaussians.coefficients()}, view.pose, counts, splats);
   }
-  const std::size_t pixels = static_cast<std::size_t>(view.grid[0]) * static_cast<std::size_t>(view.grid[1]);
+  const std::size_t pixels = view.pixels;
   out.width = view.grid[0];
   out.height = view.grid[1];
   out.color.resize(context, request.color ? 3 * pixels : 0);
@@ -175,7 +153,21 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, RenderOutput& o
                           : Range::grid(static_cast<std::size_t>(view.grid[2]) * TILE_WIDTH,
                                         static_cast<std::size_t>(view.grid[3]) * TILE_HEIGHT, TILE_WIDTH, TILE_HEIGHT);
   composite(range, pairs.tile_start(), pairs.list(), splats, view.grid, out.color, out.depth, out.alpha, out.sigma,
-            all_tiles.sparse, all_tiles.blocks);
+            part.tiles.sparse, part.tiles.blocks);
+}
+
+void Rasterizer::Impl::forward_pixels(const DeviceGaussians& gaussians, const std::vector<PixelPlace>& pixels,
+                                      RenderOutput& out) {
+  if (!selection) selection = std::make_unique<PixelSelection>(context, lanes);
+  selection->select(gaussians, view, options.dilation, pixels);
+  count = selection->size();
+  forward(gaussians, {1, selection->gaussians(), selection->tiles()}, selected_images);
+  out.width = static_cast<int>(pixels.size());
+  out.height = 1;
+  selection->pick(selected_images.color, out.color);
+  selection->pick(selected_images.depth, out.depth);
+  selection->pick(selected_images.alpha, out.alpha);
+  selection->pick(selected_images.sigma, out.sigma);
 }
 
 void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGradients& given,
@@ -238,26 +230,38 @@ Rasterizer::~Rasterizer() = default;
 Rasterizer::Rasterizer(Rasterizer&&) noexcept = default;
 Rasterizer& Rasterizer::operator=(Rasterizer&&) noexcept = default;
 
-void Rasterizer::forward(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
-                         const RenderRequest& request, RenderOutput& output) {
+void Rasterizer::Impl::prepare(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
+                               const RenderRequest& wanted) {
   camera.check();
   require(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height) <= max_pixels, "image size",
           "at most 2^28 pixels");
   require(T_world_camera.is_finite(), "camera pose", "finite");
-  require(!request.sigma || (request.depth && request.depth_mode == DepthMode::expected), "sigma",
+  require(!wanted.sigma || (wanted.depth && wanted.depth_mode == DepthMode::expected), "sigma",
           "asked for together with expected depth");
-  require(request.sh_degree >= 0, "sh_degree", "0 or more");
-  Impl& m = *impl_;
-  m.rendered = false;
-  m.count = gaussians.size();
-  m.view = make_viewpoint(camera, T_world_camera);
-  m.request = request;
-  m.sh_degree = std::min(request.sh_degree, gaussians.sh_degree);
-  m.ray_plane = m.options.depth_kind == DepthKind::ray_plane ||
-                (m.options.depth_kind == DepthKind::automatic && request.depth_mode != DepthMode::blended);
-  m.forward(gaussians, output);
-  m.output = output;
-  m.rendered = true;
+  require(wanted.sh_degree >= 0, "sh_degree", "0 or more");
+  rendered = false;
+  count = gaussians.size();
+  view = make_viewpoint(camera, T_world_camera);
+  request = wanted;
+  sh_degree = std::min(wanted.sh_degree, gaussians.sh_degree);
+  ray_plane = options.depth_kind == DepthKind::ray_plane ||
+              (options.depth_kind == DepthKind::automatic && wanted.depth_mode != DepthMode::blended);
+}
+
+void Rasterizer::forward(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
+                         const RenderRequest& request, RenderOutput& output) {
+  impl_->prepare(gaussians, camera, T_world_camera, request);
+  impl_->forward(gaussians, impl_->everything, output);
+  impl_->output = output;
+  impl_->rendered = true;
+}
+
+void Rasterizer::forward_pixels(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
+                                const RenderRequest& request, const std::vector<PixelPlace>& pixels,
+                                RenderOutput& output) {
+  require(pixels.size() <= max_pixels, "pixels", "at most 2^28");
+  impl_->prepare(gaussians, camera, T_world_camera, request);
+  impl_->forward_pixels(gaussians, pixels, output);
 }
 
 void Rasterizer::backward(const DeviceGaussians& gaussians, const OutputGradients& output_gradients,
