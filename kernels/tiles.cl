@@ -47,59 +47,67 @@ inline gI ceil_g(gF x) {
   return t - GMASK(x > CONVERT_GF(t));
 }
 
-/* Rows of tiles that each ellipse reaches: the first, and how many. */
-inline gI row_range(const Ellipse* e, int4 size, gI* rows) {
-  const gI y0 = max(ceil_g(max(e->v - e->half_y, -1.0f)), 0);
-  const gI y1 = min(floor_g(min(e->v + e->half_y, (float)size.y)), size.y - 1);
-  const gI first = y0 / TILE_HEIGHT;
-  *rows = (y1 / TILE_HEIGHT + 1 - first) & GMASK((y0 <= y1) & (y1 >= 0));
-  return first;
+/* Rows of pixels that each ellipse reaches: the first, and the last (before it: none). */
+inline gI row_range(const Ellipse* e, int4 size, gI* last) {
+  *last = min(floor_g(min(e->v + e->half_y, (float)size.y)), size.y - 1);
+  return max(ceil_g(max(e->v - e->half_y, -1.0f)), 0);
 }
 
-/* Tiles of each one's tile row `row` that hold a pixel centre inside the ellipse: the first, and how many. */
-inline gI row_span(const Ellipse* e, gI row, int4 size, gI* tiles) {
+/* Pixels that each one holds in its row of tiles `row`: the first column with a centre inside, and the last. */
+inline gI row_span(const Ellipse* e, gI row, int4 size, gI* last) {
   const gF y0 = CONVERT_GF(row * TILE_HEIGHT) - e->v;
   const gF y1 = CONVERT_GF(min(row * TILE_HEIGHT + (TILE_HEIGHT - 1), size.y - 1)) - e->v;
   const gF right_y = min(max(e->tilt, y0), y1);
   const gF left_y = min(max(-e->tilt, y0), y1);
   const gF right = e->u + fma(e->shear, right_y, sqrt(max(fma(-e->w1, right_y * right_y, e->w0), 0.0f)));
   const gF left = e->u + fma(e->shear, left_y, -sqrt(max(fma(-e->w1, left_y * left_y, e->w0), 0.0f)));
-  const gI x0 = max(ceil_g(max(left, -1.0f)), 0);
-  const gI x1 = min(floor_g(min(right, (float)size.x)), size.x - 1);
-  const gI first = x0 / TILE_WIDTH;
-  *tiles = (x1 / TILE_WIDTH + 1 - first) & GMASK((x0 <= x1) & (x1 >= 0));
-  return first;
+  *last = min(floor_g(min(right, (float)size.x)), size.x - 1);
+  return max(ceil_g(max(left, -1.0f)), 0);
 }
 
-/* Which tiles are made at all: where `sparse`, those with bits in `wanted`. */
+/* Which tiles are made at all: where `sparse`, those with bits in `wanted` (blocks of 4 x 4 pixels, as in composite.cl). */
 #define WANTED_ARGUMENTS int sparse, global const uint *restrict wanted
 #define WANTED sparse, wanted
 
+/* Does a Gaussian with pixels x0..x1, y0..y1 of a tile reach a wanted block of it? */
+inline int is_wanted(int column, int row, int x0, int x1, int y0, int y1, int4 size, WANTED_ARGUMENTS) {
+  if (!sparse) return 1;
+  const int tile_x = column * TILE_WIDTH, tile_y = row * TILE_HEIGHT;
+  const uint left = (uint)max(x0 - tile_x, 0) / 4, right = (uint)min(x1 - tile_x, TILE_WIDTH - 1) / 4;
+  const uint top = (uint)max(y0 - tile_y, 0) / 4, bottom = (uint)min(y1 - tile_y, TILE_HEIGHT - 1) / 4;
+  const uint columns = (2u << right) - (1u << left);
+  const uint rows = (0x1111u << (4 * top)) & (0xffffu >> (12 - 4 * bottom));
+  return (columns * rows & wanted[row * size.z + column]) != 0;
+}
+
 /* Tiles that each of the ellipses reaches, 0 for those not drawn. */
 inline void count_tiles(const Ellipse* box, const int* drawn, int4 size, WANTED_ARGUMENTS, uint* count) {
-  gI rows;
-  const gI row0 = row_range(box, size, &rows);
-  rows &= LOAD_LANES(drawn);
-  int row_first[GW], used[GW], begin[GW], tiles[GW];
-  STORE_LANES(row0, row_first);
-  STORE_LANES(rows, used);
+  gI bottom;
+  const gI top = row_range(box, size, &bottom);
+  const gI row0 = top / TILE_HEIGHT;
+  int y0[GW], y1[GW], x0[GW], x1[GW], rows[GW];
+  STORE_LANES(top, y0);
+  STORE_LANES(bottom, y1);
+  STORE_LANES((bottom / TILE_HEIGHT + 1 - row0) & GMASK((top <= bottom) & (bottom >= 0)) & LOAD_LANES(drawn), rows);
   int most = 0;
   for (int i = 0; i < GW; ++i) {
     count[i] = 0;
-    most = max(most, used[i]);
+    most = max(most, rows[i]);
   }
   for (int k = 0; k < most; ++k) {
-    gI span;
-    const gI left = row_span(box, row0 + k, size, &span);
-    STORE_LANES(left, begin);
-    STORE_LANES(span, tiles);
+    gI right;
+    const gI left = row_span(box, row0 + k, size, &right);
+    STORE_LANES(left, x0);
+    STORE_LANES(right, x1);
     for (int i = 0; i < GW; ++i) {
-      if (k >= used[i]) continue;
+      if (k >= rows[i] || x0[i] > x1[i]) continue;
+      const int first = (int)((uint)x0[i] / TILE_WIDTH), last = (int)((uint)x1[i] / TILE_WIDTH);
       if (!sparse) {
-        count[i] += (uint)tiles[i];
+        count[i] += (uint)(last - first + 1);
       } else {
-        global const uint* asked = wanted + (row_first[i] + k) * size.z + begin[i];
-        for (int t = 0; t < tiles[i]; ++t) count[i] += asked[t] != 0;
+        const int row = (int)((uint)y0[i] / TILE_HEIGHT) + k;
+        for (int column = first; column <= last; ++column)
+          count[i] += (uint)is_wanted(column, row, x0[i], x1[i], y0[i], y1[i], size, WANTED);
       }
     }
   }
@@ -117,21 +125,25 @@ kernel void emit_pairs(int n, global const float* restrict boxes, global const u
   }
   if (place[0] == end[GW - 1]) return;
   const Ellipse box = load_ellipse(boxes, item);
-  gI rows;
-  const gI row0 = row_range(&box, size, &rows);
-  int row_first[GW], begin[GW], tiles[GW];
-  STORE_LANES(row0, row_first);
+  gI bottom;
+  const gI top = row_range(&box, size, &bottom);
+  const gI row0 = top / TILE_HEIGHT;
+  int y0[GW], y1[GW], x0[GW], x1[GW];
+  STORE_LANES(top, y0);
+  STORE_LANES(bottom, y1);
   for (int k = 0, more = 1; more && k < size.w; ++k) {
-    gI span;
-    const gI left = row_span(&box, row0 + k, size, &span);
-    STORE_LANES(left, begin);
-    STORE_LANES(span, tiles);
+    gI right;
+    const gI left = row_span(&box, row0 + k, size, &right);
+    STORE_LANES(left, x0);
+    STORE_LANES(right, x1);
     more = 0;
     for (int i = 0; i < GW; ++i) {
-      const int row = (row_first[i] + k) * size.z;
-      for (int t = 0; t < tiles[i] && place[i] < end[i]; ++t) {
-        const int tile = row + begin[i] + t;
-        if (!sparse || wanted[tile] != 0) slot_tile[place[i]++] = (uint)tile;
+      if (place[i] == end[i]) continue;
+      const int row = (int)((uint)y0[i] / TILE_HEIGHT) + k;
+      const int first = (int)((uint)x0[i] / TILE_WIDTH), last = (int)((uint)x1[i] / TILE_WIDTH);
+      for (int column = first; x0[i] <= x1[i] && column <= last && place[i] < end[i]; ++column) {
+        if (is_wanted(column, row, x0[i], x1[i], y0[i], y1[i], size, WANTED))
+          slot_tile[place[i]++] = (uint)(row * size.z + column);
       }
       more |= place[i] < end[i];
     }
