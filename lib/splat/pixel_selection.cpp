@@ -32,14 +32,14 @@ PixelSelection::PixelSelection(const compute::Context& context, std::size_t lane
 }
 
 // Marks the blocks, and sums them up over all rectangles from the image's first corner.
-void PixelSelection::mark(const Viewpoint& view, const std::vector<PixelPlace>& pixels) {
+void PixelSelection::mark(const Viewpoint& view, const std::vector<cv::Point>& pixels) {
   const auto [width, height, columns, rows] = view.grid;
   const auto stride = static_cast<std::size_t>((width + block - 1) / block + 1);
   const auto block_rows = static_cast<std::size_t>((height + block - 1) / block);
   places_.clear();
   blocks_.assign(view.tiles, 0);
   sums_.assign(stride * (block_rows + 1), 0);
-  for (const PixelPlace& p : pixels) {
+  for (const cv::Point& p : pixels) {
     if (p.x < 0 || p.x >= width || p.y < 0 || p.y >= height) {
       throw InputError("pixel " + std::to_string(p.x) + " " + std::to_string(p.y),
                        "outside the image of " + std::to_string(width) + " x " + std::to_string(height));
@@ -59,7 +59,7 @@ void PixelSelection::mark(const Viewpoint& view, const std::vector<PixelPlace>& 
 }
 
 void PixelSelection::select(const DeviceGaussians& gaussians, const Viewpoint& view, float dilation,
-                            const std::vector<PixelPlace>& pixels) {
+                            const std::vector<cv::Point>& pixels) {
   mark(view, pixels);
   pixels_ = view.pixels;
   size_ = 0;

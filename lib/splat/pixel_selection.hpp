@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <opencv2/core/types.hpp>
 #include <vector>
 
 #include "odosplat/compute/program.hpp"
@@ -14,12 +15,6 @@
 
 namespace odosplat {
 
-/// A pixel of an image: column and row.
-struct PixelPlace {
-  std::int32_t x = 0;
-  std::int32_t y = 0;
-};
-
 /// What is wanted of an image of which only some pixels are: the tiles and blocks of 4 x 4 pixels that hold them, and
 /// the Gaussians that may touch those blocks (a superset of those that do, in their order). Not thread safe.
 class PixelSelection {
@@ -29,7 +24,7 @@ class PixelSelection {
 
   /// Waits once, for the number of Gaussians. Pixels may repeat; InputError for one outside the image.
   void select(const DeviceGaussians& gaussians, const Viewpoint& view, float dilation,
-              const std::vector<PixelPlace>& pixels);
+              const std::vector<cv::Point>& pixels);
 
   std::size_t size() const { return size_; }                                     // Gaussians selected
   const compute::Buffer<std::uint32_t>& gaussians() const { return selected_; }  // [size] their indices, rising
@@ -40,7 +35,7 @@ class PixelSelection {
   void pick(const compute::Buffer<float>& image, compute::Buffer<float>& picked);
 
  private:
-  void mark(const Viewpoint& view, const std::vector<PixelPlace>& pixels);
+  void mark(const Viewpoint& view, const std::vector<cv::Point>& pixels);
 
   compute::Context context_;
   std::size_t lanes_;

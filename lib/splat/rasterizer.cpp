@@ -13,6 +13,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/kernels/constants.h"
+#include "odosplat/splat/pixel_selection.hpp"
 #include "odosplat/splat/raster_pairs.hpp"
 #include "odosplat/splat/viewpoint.hpp"
 
@@ -114,7 +115,7 @@ struct Rasterizer::Impl {
   void prepare(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
                const RenderRequest& wanted);
   void forward(const DeviceGaussians& gaussians, const Part& part, RenderOutput& out);
-  void forward_pixels(const DeviceGaussians& gaussians, const std::vector<PixelPlace>& pixels, RenderOutput& out);
+  void forward_pixels(const DeviceGaussians& gaussians, const std::vector<cv::Point>& pixels, RenderOutput& out);
   void backward(const DeviceGaussians& gaussians, const OutputGradients& given, DeviceGaussians& gradients,
                 bool with_pose);
   Vector6d pose_gradient();
@@ -156,7 +157,7 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, const Part& par
             part.tiles.sparse, part.tiles.blocks);
 }
 
-void Rasterizer::Impl::forward_pixels(const DeviceGaussians& gaussians, const std::vector<PixelPlace>& pixels,
+void Rasterizer::Impl::forward_pixels(const DeviceGaussians& gaussians, const std::vector<cv::Point>& pixels,
                                       RenderOutput& out) {
   if (!selection) selection = std::make_unique<PixelSelection>(context, lanes);
   selection->select(gaussians, view, options.dilation, pixels);
@@ -257,7 +258,7 @@ void Rasterizer::forward(const DeviceGaussians& gaussians, const Camera& camera,
 }
 
 void Rasterizer::forward_pixels(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
-                                const RenderRequest& request, const std::vector<PixelPlace>& pixels,
+                                const RenderRequest& request, const std::vector<cv::Point>& pixels,
                                 RenderOutput& output) {
   require(pixels.size() <= max_pixels, "pixels", "at most 2^28");
   impl_->prepare(gaussians, camera, T_world_camera, request);

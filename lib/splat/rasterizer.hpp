@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <opencv2/core/types.hpp>
 #include <vector>
 
 #include "odosplat/compute/context.hpp"
 #include "odosplat/core/camera.hpp"
 #include "odosplat/core/se3.hpp"
 #include "odosplat/splat/device_gaussians.hpp"
-#include "odosplat/splat/pixel_selection.hpp"
 
 namespace odosplat {
 
@@ -99,11 +99,11 @@ class Rasterizer {
 
   /// The same at some pixels only, at a fraction of the cost: Gaussians that touch none of them are not projected,
   /// tiles without any are skipped, and of the others only blocks of 4 x 4 pixels with one are composited (on the pixel
-  /// shell the whole tile). `output` has a value a pixel, in the order given: width = pixels.size(), height = 1. The
-  /// values are those of forward, to the bit. Pixels may repeat; none: empty images. No backward after it. Waits twice.
-  /// Errors: as forward; InputError for a pixel outside the image.
+  /// shell the whole tile). `output` has a value a pixel, in the order given (x: column, y: row): width =
+  /// pixels.size(), height = 1. The values are those of forward, to the bit. Pixels may repeat; none: empty images. No
+  /// backward after it. Waits twice. Errors: as forward; InputError for a pixel outside the image.
   void forward_pixels(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
-                      const RenderRequest& request, const std::vector<PixelPlace>& pixels, RenderOutput& output);
+                      const RenderRequest& request, const std::vector<cv::Point>& pixels, RenderOutput& output);
 
   /// Gradients of the last forward, with the same Gaussians. `gradients` takes the shape of `gaussians`; every value is
   /// overwritten (zero for Gaussians not in view, and for SH above the degree rendered).

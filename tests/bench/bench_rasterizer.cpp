@@ -13,6 +13,7 @@
 
 #include "bench_report.hpp"
 #include "bench_scene.hpp"
+#include "odosplat/core/random.hpp"
 #include "odosplat/splat/rasterizer.hpp"
 #include "odosplat/splat/trainer.hpp"
 #include "yardstick.hpp"
@@ -65,6 +66,23 @@ struct Bench {
 void depth_fwd(benchmark::State& state, const BenchScene& scene) {
   Bench bench(scene);
   bench.run(state, [&] { bench.forward({}); });
+}
+
+/// 2000 pixels spread evenly at random.
+void sparse_depth(benchmark::State& state, const BenchScene& scene) {
+  constexpr int wanted = 2000;
+  Bench bench(scene);
+  Random random(3);
+  std::vector<cv::Point> pixels;
+  for (int i = 0; i < wanted; ++i) {
+    const double x = random.uniform(0.0, scene.camera.width), y = random.uniform(0.0, scene.camera.height);
+    pixels.emplace_back(static_cast<int>(x), static_cast<int>(y));
+  }
+  RenderRequest request;
+  request.sigma = true;
+  bench.run(state, [&] {
+    bench.rasterizer.forward_pixels(bench.gaussians, scene.camera, scene.T_world_camera, request, pixels, bench.output);
+  });
 }
 
 void color_fwd(benchmark::State& state, const BenchScene& scene) {
@@ -162,11 +180,9 @@ struct Named {
   const char* name;
   Work work;
 };
-constexpr Named works[] = {{"depth_fwd", depth_fwd},
-                           {"yardstick_depth_fwd", yardstick_depth_fwd},
-                           {"color_fwd", color_fwd},
-                           {"fwd_bwd", fwd_bwd},
-                           {"train_step", train_step}};
+constexpr Named works[] = {{"depth_fwd", depth_fwd},       {"yardstick_depth_fwd", yardstick_depth_fwd},
+                           {"sparse_depth", sparse_depth}, {"color_fwd", color_fwd},
+                           {"fwd_bwd", fwd_bwd},           {"train_step", train_step}};
 
 void add(const Named& named, const std::string& scene_name, int width, int height,
          const std::function<BenchScene()>& make) {

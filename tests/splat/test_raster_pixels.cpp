@@ -17,8 +17,8 @@ namespace {
 class RasterPixels : public testing::TestWithParam<Shell> {};
 
 // Corners, one pixel twice, and others at random.
-std::vector<PixelPlace> some_pixels(const Camera& camera, int random_ones, std::uint64_t seed) {
-  std::vector<PixelPlace> pixels{
+std::vector<cv::Point> some_pixels(const Camera& camera, int random_ones, std::uint64_t seed) {
+  std::vector<cv::Point> pixels{
       {0, 0}, {camera.width - 1, camera.height - 1}, {0, camera.height - 1}, {camera.width - 1, 0}, {0, 0}};
   Random random(seed);
   for (int i = 0; i < random_ones; ++i) {
@@ -29,7 +29,7 @@ std::vector<PixelPlace> some_pixels(const Camera& camera, int random_ones, std::
 }
 
 HostImages render_pixels(Rasterizer& rasterizer, const RasterScene& scene, const RenderRequest& request,
-                         const std::vector<PixelPlace>& pixels) {
+                         const std::vector<cv::Point>& pixels) {
   DeviceGaussians gaussians;
   gaussians.upload(test_context(), scene.gaussians);
   RenderOutput output;
@@ -39,12 +39,11 @@ HostImages render_pixels(Rasterizer& rasterizer, const RasterScene& scene, const
   return {output.color.download(), output.depth.download(), output.alpha.download(), output.sigma.download()};
 }
 
-std::vector<float> picked(const std::vector<float>& image, const Camera& camera,
-                          const std::vector<PixelPlace>& pixels) {
+std::vector<float> picked(const std::vector<float>& image, const Camera& camera, const std::vector<cv::Point>& pixels) {
   std::vector<float> values;
   const auto plane = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
   for (std::size_t begin = 0; begin < image.size(); begin += plane) {
-    for (const PixelPlace& p : pixels)
+    for (const cv::Point& p : pixels)
       values.push_back(image[begin + static_cast<std::size_t>(p.y) * static_cast<std::size_t>(camera.width) +
                              static_cast<std::size_t>(p.x)]);
   }
@@ -52,7 +51,7 @@ std::vector<float> picked(const std::vector<float>& image, const Camera& camera,
 }
 
 void expect_bits_of_whole_image(Rasterizer& rasterizer, const RasterScene& scene, const RenderRequest& request,
-                                const std::vector<PixelPlace>& pixels) {
+                                const std::vector<cv::Point>& pixels) {
   const HostImages some = render_pixels(rasterizer, scene, request, pixels);
   const std::size_t pairs_of_some = rasterizer.pairs();
   const HostImages whole = render(rasterizer, test_context(), scene, request);
@@ -88,7 +87,7 @@ TEST_P(RasterPixels, MostGaussiansAreLeftOut) {
   Rasterizer rasterizer = make_rasterizer(GetParam());
   RenderRequest request;
   request.sigma = true;
-  const std::vector<PixelPlace> pixels = some_pixels(scene.camera, 60, 2);
+  const std::vector<cv::Point> pixels = some_pixels(scene.camera, 60, 2);
   expect_bits_of_whole_image(rasterizer, scene, request, pixels);
   const std::size_t all = rasterizer.pairs();
   const HostImages some = render_pixels(rasterizer, scene, request, pixels);
@@ -100,7 +99,7 @@ TEST_P(RasterPixels, MostGaussiansAreLeftOut) {
 TEST_P(RasterPixels, EveryPixelWantedIsTheWholeImage) {
   Rasterizer rasterizer = make_rasterizer(GetParam());
   const RasterScene scene = overlapping_scene(400, 3, 1);
-  std::vector<PixelPlace> pixels;
+  std::vector<cv::Point> pixels;
   for (int y = 0; y < scene.camera.height; ++y) {
     for (int x = 0; x < scene.camera.width; ++x) pixels.push_back({x, y});
   }
@@ -122,7 +121,7 @@ TEST_P(RasterPixels, OutsideTheImageIsRefused) {
   DeviceGaussians gaussians, gradients;
   gaussians.upload(test_context(), scene.gaussians);
   RenderOutput output;
-  for (const PixelPlace& p : {PixelPlace{-1, 0}, {0, -1}, {37, 0}, {0, 29}}) {
+  for (const cv::Point& p : {cv::Point(-1, 0), cv::Point(0, -1), cv::Point(37, 0), cv::Point(0, 29)}) {
     EXPECT_THROW(rasterizer.forward_pixels(gaussians, scene.camera, scene.T_world_camera, {}, {{0, 0}, p}, output),
                  InputError);
   }
