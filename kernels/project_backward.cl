@@ -38,7 +38,8 @@ kernel void project_backward(int n, global const float* restrict positions, glob
   color_gradients[g] = (float4)(sum[SLOT_COLOR], sum[SLOT_COLOR + 1], sum[SLOT_COLOR + 2], 0.0f);
 #endif
 
-  const Projection s = project_one(vload3(g, positions), vload3(g, log_scales), vload4(g, rotations),
+  const float4 rotation = vload4(g, rotations);
+  const Projection s = project_one(vload3(g, positions), vload3(g, log_scales), rotation.x, rotation.yzw,
                                    opacity_logits[g], pose, lens, dilation);
   const float inverse_z = 1.0f / s.p.z;
   const float inverse_det = 1.0f / s.det;

@@ -18,10 +18,10 @@ constexpr std::size_t gpu_chunks = 512;
 RadixSort::RadixSort(const Context& context)
     : context_(context),
       program_(context, {"radix_sort.cl"}),
-      histogram_(program_.kernel("radix_histogram")),
-      chunk_offsets_(program_.kernel("radix_chunk_offsets")),
-      digit_offsets_(program_.kernel("radix_digit_offsets")),
-      scatter_(program_.kernel("radix_scatter")),
+      histogram_(program_.kernel("radix_histogram", "sort")),
+      chunk_offsets_(program_.kernel("radix_chunk_offsets", "sort")),
+      digit_offsets_(program_.kernel("radix_digit_offsets", "sort")),
+      scatter_(program_.kernel("radix_scatter", "sort")),
       totals_(context, RADIX_SIZE) {}
 
 void RadixSort::sort(const Buffer<std::uint32_t>& keys, std::size_t n, Buffer<std::uint32_t>& order) {

@@ -13,9 +13,9 @@ std::uint32_t chunk_size(const Context& context) { return context.is_cpu() ? 409
 Scan::Scan(const Context& context)
     : context_(context),
       program_(context, {"scan.cl"}),
-      chunk_sums_(program_.kernel("scan_chunk_sums")),
-      scan_sums_(program_.kernel("scan_sums")),
-      write_(program_.kernel("scan_write")) {}
+      chunk_sums_(program_.kernel("scan_chunk_sums", "scan")),
+      scan_sums_(program_.kernel("scan_sums", "scan")),
+      write_(program_.kernel("scan_write", "scan")) {}
 
 void Scan::exclusive(const Buffer<std::uint32_t>& counts, std::size_t n, Buffer<std::uint32_t>& out) {
   const std::uint32_t chunk = chunk_size(context_);
