@@ -41,8 +41,12 @@ std::vector<std::size_t> judged_frames(const Sequence& sequence, const EvalDepth
 }
 
 void print_row(const char* region, const DepthErrors& e) {
-  std::printf("%-10s%12.2f%12.2f%12.2f%12.2f%11.2f%%\n", region, 1000.0 * e.median_abs_m, 1000.0 * e.rmse_m,
+  std::printf("%-10s%12.2f%12.2f%12.2f%12.2f%11.2f%%", region, 1000.0 * e.median_abs_m, 1000.0 * e.rmse_m,
               1000.0 * e.p90_m, 1000.0 * e.mean_m, 100.0 * e.valid_share);
+  if (e.with_sigma > 0)
+    std::printf("%10.1f%%%10.1f%%%10.1f%%", 100.0 * e.within_sigmas[0], 100.0 * e.within_sigmas[1],
+                100.0 * e.within_sigmas[2]);
+  std::printf("\n");
 }
 
 nlohmann::ordered_json json_of(const DepthErrors& e) {
@@ -50,7 +54,10 @@ nlohmann::ordered_json json_of(const DepthErrors& e) {
           {"rmse_m", e.rmse_m},
           {"p90_m", e.p90_m},
           {"mean_m", e.mean_m},
-          {"valid_share", e.valid_share}};
+          {"valid_share", e.valid_share},
+          {"within_1_sigma", e.within_sigmas[0]},
+          {"within_2_sigma", e.within_sigmas[1]},
+          {"within_3_sigma", e.within_sigmas[2]}};
 }
 
 }  // namespace
@@ -73,9 +80,9 @@ EvalDepthOutcome evaluate_depth(const Common& common, const EvalDepthJob& job) {
     const ColorImage color = sequence.color(i);
     if (opened.sensor != nullptr) opened.sensor->set_depth(truth);
     const ViewImages images = opened.view->render(sequence.camera(), *sequence.T_world_camera(i), request);
-    all.add(images.depth, truth);
-    selected.add(images.depth, truth, selected_mask(selector, to_gray(color), sequence.camera()));
-    edges.add(images.depth, truth, depth_edge_mask(truth));
+    all.add(images.depth, truth, {}, images.sigma);
+    selected.add(images.depth, truth, selected_mask(selector, to_gray(color), sequence.camera()), images.sigma);
+    edges.add(images.depth, truth, depth_edge_mask(truth), images.sigma);
     if (!images.color.empty()) {
       outcome.psnr_db += psnr_db(images.color, color);
       outcome.ssim += ssim(images.color, color);
@@ -107,7 +114,9 @@ void add_eval_depth(CLI::App& app, Common& common) {
   command->final_callback([&common, job] {
     if (!job->json.empty()) ensure_output_file(job->json);
     const EvalDepthOutcome o = evaluate_depth(common, *job);
-    std::printf("%-10s%12s%12s%12s%12s%12s\n", "[mm]", "median", "RMSE", "90 %", "mean", "valid");
+    std::printf("%-10s%12s%12s%12s%12s%12s", "[mm]", "median", "RMSE", "90 %", "mean", "valid");
+    if (o.all.with_sigma > 0) std::printf("%11s%11s%11s", "1 sigma", "2 sigma", "3 sigma");
+    std::printf("\n");
     print_row("all", o.all);
     print_row("selected", o.selected);
     print_row("edges", o.edges);

@@ -28,6 +28,8 @@ constexpr float sh_constant = 0.28209479F;
 
 void add_map_flags(CLI::App* command, MapFlags& flags) {
   command->add_option("--map", flags.map, "map of Gaussians (PLY, as train writes it)");
+  command->add_option("--depth", flags.depth,
+                      "what the depth of a pixel is: surface, expected, median or blended (default: the method's)");
   command->add_option("--cloud", flags.cloud, "point cloud (PLY)");
 }
 
@@ -37,6 +39,8 @@ OpenedView open_view(const Common& common, const std::string& method, const MapF
     const Gaussians gaussians = read_map(needed(method, "--map", flags.map));
     GaussianViewOptions options;
     if (method == "paper") options.depth_mode = DepthMode::blended;
+    if (!flags.depth.empty()) options.depth_mode = depth_mode(flags.depth);
+    options.sigma = read_sigma_model(flags.map);
     opened.device = open_device(common);
     opened.view = std::make_unique<GaussianView>(*opened.device, gaussians, options);
   } else if (method == "interpolation") {

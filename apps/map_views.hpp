@@ -15,8 +15,9 @@ namespace odosplat::apps {
 
 /// Where a method's map comes from.
 struct MapFlags {
-  std::string map;    // map.ply of Gaussians
-  std::string cloud;  // point cloud
+  std::string map{};    // of Gaussians
+  std::string cloud{};  // point cloud
+  std::string depth{};  // of Gaussians: surface, expected, median, blended; empty: the method's
 };
 
 void add_map_flags(CLI::App* command, MapFlags& flags);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +14,9 @@
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/cloud_file.hpp"
 #include "odosplat/map/interpolation_view.hpp"
+#include "odosplat/splat/cloud_colors.hpp"
 #include "odosplat/splat/map_file.hpp"
+#include "odosplat/splat/sigma_calibration.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -55,11 +58,6 @@ TrainerOptions trainer_options(const TrainJob& job) {
   if (job.exposure == "on") options.exposure.rate = 1e-3;
   if (job.exposure == "off") options.exposure.rate = 0.0;
   if (job.depth_weight >= 0.0) options.depth.weight = job.depth_weight;
-  auto env=[&](const char* n, double& v){ if(const char* e=std::getenv(n)) v=std::atof(e); };
-  env("X_CUT", options.depth.cut); env("X_PLACE", options.surface.place_weight); env("X_NORMAL", options.surface.normal_weight);
-  env("X_FLAT", options.surface.flatten_weight); env("X_ROT", options.rotation_rate); env("X_POS", options.position_rate); env("X_POSF", options.position_rate_final);
-  env("X_GROW", options.largest_growth); env("X_OPA", options.opacity_rate); env("X_SCALE", options.scale_rate);
-  if (std::getenv("X_FREE")) options.keep_thickness = false;
   return options;
 }
 
@@ -67,6 +65,7 @@ InitializeOptions initialize_options(const TrainJob& job) {
   InitializeOptions options = InitializeOptions::preset(job.preset);
   options.budget = job.budget;
   options.seed = job.seed;
+  if (job.sh_degree >= 0) options.sh_degree = job.sh_degree;
   return options;
 }
 
@@ -97,6 +96,57 @@ void write_report(const TrainJob& job, const TrainingReport& report, const compu
   write_file_atomically(job.report, json.dump(2) + "\n");
 }
 
+std::string checkpoint_file(const TrainJob& job) { return job.out + ".checkpoint"; }
+
+/// Goes on from the last checkpoint where one is wanted and there is one.
+void take_up(const TrainJob& job, Trainer& trainer) {
+  const std::string file = checkpoint_file(job);
+  if (!job.resume) return;
+  if (!std::filesystem::exists(file)) {
+    log_info("no checkpoint " + file + ": training starts at the beginning");
+    return;
+  }
+  try {
+    trainer.resume(Checkpoint::read(file));
+  } catch (const InputError& e) {
+    // Errors of the state itself do not know the file.
+    throw std::string(e.what()).starts_with(file) ? e : InputError(file, e.what());
+  }
+  log_info("going on from iteration " + std::to_string(trainer.iteration()) + " of " + file);
+}
+
+/// Steps until all are done or Ctrl-C, with checkpoints.
+void run(const TrainJob& job, Trainer& trainer) {
+  Progress progress("train", trainer.options().iterations);
+  while (!trainer.done() && !interrupted()) {
+    const TrainingStep step = trainer.step();
+    progress.update(step.iteration, progress_text(step, trainer.report()));
+    if (job.checkpoint_every > 0 && step.iteration % job.checkpoint_every == 0 && !trainer.done())
+      trainer.checkpoint().write(checkpoint_file(job));
+  }
+  progress.finish();
+  if (!trainer.done()) {
+    trainer.checkpoint().write(checkpoint_file(job));
+    log_info("stopped after iteration " + std::to_string(trainer.iteration()) + "; --resume goes on from " +
+             checkpoint_file(job));
+  }
+}
+
+/// The map with its settings, and how sure its depth is.
+void write_result(const TrainJob& job, const compute::Context& device, const Trainer& trainer, TrainingViews& views,
+                  MapView* surface, double shared_sigma) {
+  const Gaussians gaussians = trainer.gaussians();
+  std::vector<std::string> notes = trainer.options().describe();
+  if (surface != nullptr) {
+    SigmaCalibrationOptions options;
+    options.rasterizer = trainer.options().rasterizer;
+    options.shared_sigma = shared_sigma;
+    for (const std::string& line : calibrated_sigma(device, gaussians, views, *surface, options).to_lines())
+      notes.push_back(line);
+  }
+  write_map(job.out, gaussians, notes);
+}
+
 }  // namespace
 
 TrainingReport train_map(const Common& common, const TrainJob& job) {
@@ -105,21 +155,25 @@ TrainingReport train_map(const Common& common, const TrainJob& job) {
   ensure_output_file(job.out);
   if (!job.report.empty()) ensure_output_file(job.report);
   SequenceViews views(job);
-  const PointCloud cloud = read_point_cloud(job.cloud);
+  PointCloud cloud = read_point_cloud(job.cloud);
+  if (!cloud.has_colors()) color_from_views(cloud, views);
   const compute::Context device = open_device(common);
   const Gaussians start = gaussians_from_cloud(cloud, initial);
   std::unique_ptr<InterpolationView> surface;
-  if (options.depth.weight > 0.0) surface = std::make_unique<InterpolationView>(smoothed_cloud(cloud, initial));
+  double shared_sigma = 0.0;
+  if (initial.shape == InitialShape::discs) {
+    const PointCloud smoothed = smoothed_cloud(cloud, initial);
+    surface = std::make_unique<InterpolationView>(smoothed);
+    shared_sigma = noise_left(cloud, smoothed, initial);
+  }
   log_info("training " + std::to_string(start.size()) + " Gaussians on " + std::to_string(views.count()) + " images");
   Trainer trainer(device, options, start, views, surface.get());
-  Progress progress("train", options.iterations);
-  while (!trainer.done() && !interrupted()) {
-    const TrainingStep step = trainer.step();
-    progress.update(step.iteration, progress_text(step, trainer.report()));
-  }
-  progress.finish();
+  take_up(job, trainer);
+  run(job, trainer);
   const TrainingReport report = trainer.report();
-  write_map(job.out, trainer.gaussians(), trainer.options().describe());
+  // After Ctrl-C nobody wants to wait for the calibration.
+  write_result(job, device, trainer, views, trainer.done() ? surface.get() : nullptr, shared_sigma);
+  if (trainer.done()) std::filesystem::remove(checkpoint_file(job));
   write_report(job, report, device);
   print_profile(common, device);
   if (!trainer.done()) throw Interrupted();
@@ -137,10 +191,27 @@ void add_train(CLI::App& app, Common& common) {
   command->add_option("--every", job->every, "train on every Nth frame")->check(CLI::PositiveNumber);
   command->add_option("--preset", job->preset, "default, or paper (the recipe of the paper's code)");
   command->add_option("--iterations", job->iterations, "steps of one image each (default: the preset's)");
-  command->add_option("--budget", job->budget, "most Gaussians, 0 = one a point");
-  command->add_option("--densify", job->densify, "none, relocate or split (default: the preset's)");
-  command->add_option("--exposure", job->exposure, "on, off (default: the preset's)");
-  command->add_option("--depth-weight", job->depth_weight, "weight of depth (default: the preset's)");
+  command->add_option(
+      "--budget", job->budget,
+      "most Gaussians: of the cloud's points, and that densification grows to; 0 = one a point, and split "
+      "without limit");
+  command->add_option(
+      "--densify", job->densify,
+      "none, relocate (the dead move to where the images need them, and grow to the budget) or split (clone "
+      "and split by screen gradient) (default: the preset's)");
+  command
+      ->add_option("--exposure", job->exposure, "learn the exposure of each image: on or off (default: the preset's)")
+      ->check(CLI::IsMember({"", "on", "off"}));
+  command->add_option("--depth-weight", job->depth_weight,
+                      "weight of the cloud's depth beside the images (default: the preset's)");
+  command->add_option("--sh-degree", job->sh_degree,
+                      "degree of the colours' spherical harmonics, 0..3 (default: the preset's)");
+  command
+      ->add_option("--checkpoint-every", job->checkpoint_every,
+                   "iterations between checkpoints (OUT.checkpoint, removed at the end), 0 = only on Ctrl-C")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--resume", job->resume,
+                    "go on from OUT.checkpoint if there is one: the same bits as without a stop");
   command->add_option("--seed", job->seed, "seed of every random choice");
   command->add_option("--report", job->report, "report to write (JSON)");
   command->final_callback([&common, job] {

@@ -24,13 +24,14 @@ struct TrainJob {
   std::size_t budget = 0;  // Gaussians, 0: one a point
   std::string densify;     // empty: the preset's
   std::string exposure;    // on, off; empty: the preset's
+  int sh_degree = -1;      // < 0: the preset's
   double depth_weight = -1.0;  // < 0: the preset's
   int checkpoint_every = 500;  // iterations, 0: never
   bool resume = false;
 };
 
-/// Makes map.ply from a cloud and posed images, and the report if asked. After Ctrl-C the map as it is then is
-/// written, and Interrupted thrown.
+/// Makes map.ply from a cloud and posed images, and the report if asked. Checkpoints go to OUT.checkpoint, which is
+/// removed at the end. After Ctrl-C the map as it is then and a checkpoint are written, and Interrupted thrown.
 TrainingReport train_map(const Common& common, const TrainJob& job);
 
 }  // namespace odosplat::apps

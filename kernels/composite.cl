@@ -7,16 +7,24 @@
    made. Pixels of other blocks are left as they are (the pixel shell makes all of a tile that has a wanted block).
    One step, the same in both, for VW pixels against one splat: */
 
+#define WITH_SPREAD (WITH_SIGMA || DEPTH_MODE == DEPTH_SURFACE)
+
 typedef struct {
   fV T;
 #if WITH_COLOR
   fV r, g, b;
 #endif
 #if WITH_DEPTH
-  fV depth; /* with sigma: of the difference to `first` */
+  fV depth; /* with spread: of the difference to `first` */
+#endif
+#if WITH_SPREAD
+  fV first, square; /* depth of the first Gaussian: sums of small differences keep their digits */
 #endif
 #if WITH_SIGMA
-  fV first, square; /* depth of the first Gaussian: sums of small differences keep their digits */
+  fV steepness;
+#endif
+#if DEPTH_MODE == DEPTH_SURFACE
+  fV median;
 #endif
 } Pixels;
 
@@ -30,14 +38,20 @@ inline void clear_pixels(Pixels* s) {
 #if WITH_DEPTH
   s->depth = (fV)(0.0f);
 #endif
-#if WITH_SIGMA
+#if WITH_SPREAD
   s->first = (fV)(0.0f);
   s->square = (fV)(0.0f);
+#endif
+#if WITH_SIGMA
+  s->steepness = (fV)(0.0f);
+#endif
+#if DEPTH_MODE == DEPTH_SURFACE
+  s->median = (fV)(0.0f);
 #endif
 }
 
 /* e: log2 alpha of the splat at the pixels; ratio: by what its centre's depth is divided there. */
-inline void add_splat(Pixels* s, fV e, fV ratio, float depth, float4 color) {
+inline void add_splat(Pixels* s, fV e, fV ratio, float depth, float steepness, float4 color) {
   const fV T = s->T;
   const iV m = MASK((e >= LOG2_MIN_ALPHA) & (T >= MIN_TRANSMITTANCE));
   const fV alpha = KEEP(min(exp2_poly(e), (fV)(MAX_ALPHA)), m);
@@ -53,12 +67,18 @@ inline void add_splat(Pixels* s, fV e, fV ratio, float depth, float4 color) {
   const fV z = depth / max(ratio, (fV)(MIN_PLANE_RATIO));
 #if DEPTH_MODE == DEPTH_MEDIAN
   s->depth = CHOOSE(s->depth, z, m & MASK((T >= 0.5f) & (T_after < 0.5f)));
-#elif WITH_SIGMA
+#elif WITH_SPREAD
   s->first = CHOOSE(s->first, z, m & MASK(T == 1.0f));
   const fV difference = z - s->first;
   const fV weighted = w * difference;
   s->depth = s->depth + weighted;
   s->square = s->square + weighted * difference;
+#if DEPTH_MODE == DEPTH_SURFACE
+  s->median = CHOOSE(s->median, z, m & MASK((T >= 0.5f) & (T_after < 0.5f)));
+#endif
+#if WITH_SIGMA
+  s->steepness = s->steepness + w * steepness;
+#endif
 #else
   s->depth = s->depth + w * z;
 #endif
@@ -66,11 +86,26 @@ inline void add_splat(Pixels* s, fV e, fV ratio, float depth, float4 color) {
 }
 
 /* What the images hold, from the sums. */
+#if WITH_SPREAD
+/* Squared standard deviation of depth along the ray; garbage where no Gaussian touches. */
+inline fV squared_spread(const Pixels* s) {
+  const fV inverse = 1.0f / (1.0f - s->T);
+  const fV mean = s->depth * inverse;
+  return max(s->square * inverse - mean * mean, (fV)(0.0f));
+}
+#endif
 inline fV final_depth(const Pixels* s) {
-#if DEPTH_MODE == DEPTH_EXPECTED
+#if DEPTH_MODE == DEPTH_EXPECTED || DEPTH_MODE == DEPTH_SURFACE
   const iV touched = MASK(s->T < 1.0f);
-#if WITH_SIGMA
-  return KEEP(s->first + s->depth / (1.0f - s->T), touched);
+#if WITH_SPREAD
+  const fV mean = s->first + s->depth / (1.0f - s->T);
+#if DEPTH_MODE == DEPTH_SURFACE
+  /* Pixels covered by less than a half have no median. */
+  const iV mixed = MASK((squared_spread(s) > (SURFACE_SPREAD * SURFACE_SPREAD) * mean * mean) & (s->median > 0.0f));
+  return KEEP(CHOOSE(mean, s->median, mixed), touched);
+#else
+  return KEEP(mean, touched);
+#endif
 #else
   return KEEP(s->depth / (1.0f - s->T), touched);
 #endif
@@ -80,11 +115,14 @@ inline fV final_depth(const Pixels* s) {
   return (fV)(0.0f);
 #endif
 }
-inline fV final_sigma(const Pixels* s) {
+/* model: squares of the factors of spread, steepness, depth, and of depth times transmittance (SigmaModel). */
+inline fV final_sigma(const Pixels* s, fV depth, float4 model) {
 #if WITH_SIGMA
-  const fV inverse = 1.0f / (1.0f - s->T);
-  const fV mean = s->depth * inverse;
-  return KEEP(sqrt(max(s->square * inverse - mean * mean, (fV)(0.0f))), MASK(s->T < 1.0f));
+  const fV steepness = s->steepness / (1.0f - s->T);
+  const fV open = s->T * s->T;
+  const fV square = model.x * squared_spread(s) + model.y * steepness * steepness +
+                    depth * depth * (model.z + model.w * open);
+  return KEEP(sqrt(square), MASK(s->T < 1.0f));
 #else
   return (fV)(0.0f);
 #endif
@@ -94,7 +132,7 @@ inline fV final_sigma(const Pixels* s) {
   global const uint *restrict tile_start, global const uint *restrict list, global const float4 *restrict splats, \
       int4 size, global float *restrict color_out,                        \
       global float *restrict depth_out, global float *restrict alpha_out, global float *restrict sigma_out, \
-      int sparse, global const uint *restrict wanted
+      float4 sigma_model, int sparse, global const uint *restrict wanted
 
 #if SHELL_TILE
 
@@ -157,7 +195,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void composite(COMPOSITE_A
       do {
         const int i = last_block(reached);
         reached ^= 1u << i;
-        add_splat(&sums[i], block_exponent(&middles, i, bend), block_ratio(&middles, i, tilt), s1.z, color);
+        add_splat(&sums[i], block_exponent(&middles, i, bend), block_ratio(&middles, i, tilt), s1.z, s2.z, color);
       } while (reached != 0);
     }
     for (int i = 0; i < BLOCKS; ++i) {
@@ -176,10 +214,11 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void composite(COMPOSITE_A
     store_block(color_out + 2 * pixels, at, size, s->b);
 #endif
 #if WITH_DEPTH
-    store_block(depth_out, at, size, final_depth(s));
-#endif
+    const fV depth = final_depth(s);
+    store_block(depth_out, at, size, depth);
 #if WITH_SIGMA
-    store_block(sigma_out, at, size, final_sigma(s));
+    store_block(sigma_out, at, size, final_sigma(s, depth, sigma_model));
+#endif
 #endif
   }
 }
@@ -219,7 +258,7 @@ kernel __attribute__((reqd_work_group_size(TILE_WIDTH, TILE_HEIGHT, 1))) void co
         const float4 s0 = batch0[i], s1 = batch1[i], s2 = batch2[i];
         const float dx = (float)x - s0.x, dy = (float)y - s0.y;
         const float e = s1.y - s1.x * dy * dy - dx * (s0.z * dx + s0.w * dy);
-        add_splat(&sums, e, 1.0f - s2.y * dy - s2.x * dx, s1.z,
+        add_splat(&sums, e, 1.0f - s2.y * dy - s2.x * dx, s1.z, s2.z,
 #if WITH_COLOR
                   batch_color[i]
 #else
@@ -240,10 +279,11 @@ kernel __attribute__((reqd_work_group_size(TILE_WIDTH, TILE_HEIGHT, 1))) void co
   color_out[at + 2 * pixels] = sums.b;
 #endif
 #if WITH_DEPTH
-  depth_out[at] = final_depth(&sums);
-#endif
+  const fV depth = final_depth(&sums);
+  depth_out[at] = depth;
 #if WITH_SIGMA
-  sigma_out[at] = final_sigma(&sums);
+  sigma_out[at] = final_sigma(&sums, depth, sigma_model);
+#endif
 #endif
 }
 

@@ -48,7 +48,7 @@ kernel void project(int n, int select, global const uint* restrict selected, glo
   box.w1 = HALF_LOG2_E * scale * inverse_A * inverse_A;
   box.tilt = -0.5f * B / C * half_x;
   store_ellipse(boxes, item, &box);
-  float columns[10][GW];
+  float columns[11][GW];
   int is_drawn[GW];
   STORE_LANES(s.u, columns[0]);
   STORE_LANES(s.v, columns[1]);
@@ -60,6 +60,7 @@ kernel void project(int n, int select, global const uint* restrict selected, glo
   STORE_LANES(ray_plane ? slope.u : (gF)(0.0f), columns[7]);
   STORE_LANES(ray_plane ? slope.v : (gF)(0.0f), columns[8]);
   STORE_LANES(half_y, columns[9]);
+  STORE_LANES(ray_plane ? s.p.z * sqrt(slope.u * slope.u + slope.v * slope.v) : (gF)(0.0f), columns[10]);
   STORE_LANES(drawn, is_drawn);
   uint count[GW];
   count_tiles(&box, is_drawn, size, WANTED, count);
@@ -70,6 +71,6 @@ kernel void project(int n, int select, global const uint* restrict selected, glo
     counts[g] = count[i];
     splats[SPLAT_VECTORS * g] = (float4)(columns[0][i], columns[1][i], columns[2][i], columns[3][i]);
     splats[SPLAT_VECTORS * g + 1] = (float4)(columns[4][i], columns[5][i], columns[6][i], columns[9][i]);
-    splats[SPLAT_VECTORS * g + 2] = (float4)(columns[7][i], columns[8][i], 0.0f, 0.0f);
+    splats[SPLAT_VECTORS * g + 2] = (float4)(columns[7][i], columns[8][i], columns[10][i], 0.0f);
   }
 }

@@ -34,7 +34,8 @@ inline fV exp2_poly(fV x) {
 }
 
 /* What the compositing kernels read of a Gaussian, four float4, one cache line:
-   0: u, v [px], A, B;   1: C, log2 opacity, depth of the centre [m], half height [px];   2: slope_u, slope_v [1/px], -, -;
+   0: u, v [px], A, B;   1: C, log2 opacity, depth of the centre [m], half height [px];
+   2: slope_u, slope_v [1/px], how steeply depth changes at the centre [m/px], -;
    3: red, green, blue, - (written by shade.cl, with colour only)
    log2 alpha(dx, dy) = log2 opacity - (A dx^2 + B dx dy + C dy^2), (dx, dy) = pixel - (u, v)
    depth(dx, dy) = depth / max(1 - slope_u dx - slope_v dy, MIN_PLANE_RATIO) */
@@ -53,6 +54,7 @@ inline fV exp2_poly(fV x) {
 #define DEPTH_EXPECTED 1
 #define DEPTH_MEDIAN 2
 #define DEPTH_BLENDED 3
+#define DEPTH_SURFACE 4
 #define WITH_DEPTH (DEPTH_MODE != DEPTH_NONE)
 #define SLOT_DEPTH 6
 #define SLOT_COLOR (6 + 4 * WITH_DEPTH)

@@ -19,8 +19,10 @@ constexpr int decades = 8;
 
 DepthMetrics::DepthMetrics() : bins_(static_cast<std::size_t>(bins_a_decade * decades), 0) {}
 
-void DepthMetrics::add(const DepthImage& estimate, const DepthImage& truth, const cv::Mat1b& mask) {
-  if (estimate.size() != truth.size() || (!mask.empty() && mask.size() != truth.size())) {
+void DepthMetrics::add(const DepthImage& estimate, const DepthImage& truth, const cv::Mat1b& mask,
+                       const cv::Mat1f& sigma) {
+  if (estimate.size() != truth.size() || (!mask.empty() && mask.size() != truth.size()) ||
+      (!sigma.empty() && sigma.size() != truth.size())) {
     throw InputError("depth images", "differ in size");
   }
   for (int y = 0; y < truth.rows; ++y) {
@@ -30,6 +32,11 @@ void DepthMetrics::add(const DepthImage& estimate, const DepthImage& truth, cons
       if (!(estimate(y, x) > 0.0F) || !std::isfinite(estimate(y, x))) continue;
       ++valid_;
       const double error = static_cast<double>(estimate(y, x)) - static_cast<double>(truth(y, x));
+      if (!sigma.empty() && sigma(y, x) > 0.0F) {
+        ++with_sigma_;
+        for (int k = 0; k < 3; ++k)
+          within_[k] += std::abs(error) <= (k + 1.0) * static_cast<double>(sigma(y, x)) ? 1U : 0U;
+      }
       sum_ += error;
       squares_ += error * error;
       const double place = (std::log10(std::max(std::abs(error), 1e-12)) - least_decade) * bins_a_decade;
@@ -64,6 +71,9 @@ DepthErrors DepthMetrics::result() const {
   errors.rmse_m = std::sqrt(squares_ / static_cast<double>(valid_));
   errors.median_abs_m = quantile(0.5);
   errors.p90_m = quantile(0.9);
+  errors.with_sigma = with_sigma_;
+  for (int k = 0; k < 3 && with_sigma_ > 0; ++k)
+    errors.within_sigmas[k] = static_cast<double>(within_[k]) / static_cast<double>(with_sigma_);
   return errors;
 }
 

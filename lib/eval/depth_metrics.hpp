@@ -16,6 +16,10 @@ struct DepthErrors {
   double mean_m = 0.0;        // [m] of estimate - truth: positive = too far
   double valid_share = 0.0;   // pixels with an estimate among those with truth
   std::uint64_t pixels = 0;   // with truth
+  // Share of the estimates with a sigma whose error is within 1, 2 and 3 of it (of a normal distribution 0.683, 0.954,
+  // 0.997); 0 without sigmas.
+  double within_sigmas[3] = {0.0, 0.0, 0.0};
+  std::uint64_t with_sigma = 0;  // estimates with a sigma
 };
 
 /// Errors of depth images over many frames, in memory that does not grow: sums, and a histogram of the absolute error
@@ -26,9 +30,9 @@ class DepthMetrics {
  public:
   DepthMetrics();
 
-  /// estimate and truth [m], 0 = none; only pixels where mask is not 0 count (an empty mask: all). Throws InputError if
-  /// sizes differ.
-  void add(const DepthImage& estimate, const DepthImage& truth, const cv::Mat1b& mask = {});
+  /// estimate and truth [m], 0 = none; only pixels where mask is not 0 count (an empty mask: all). sigma [m]: standard
+  /// deviation of the estimate, 0 = unknown (an empty image: everywhere). Throws InputError if sizes differ.
+  void add(const DepthImage& estimate, const DepthImage& truth, const cv::Mat1b& mask = {}, const cv::Mat1f& sigma = {});
 
   /// All 0 if there was no truth.
   DepthErrors result() const;
@@ -41,6 +45,8 @@ class DepthMetrics {
   std::uint64_t valid_ = 0;
   double sum_ = 0.0;
   double squares_ = 0.0;
+  std::uint64_t with_sigma_ = 0;
+  std::uint64_t within_[3] = {0, 0, 0};
 };
 
 /// 255 within radius [px] (along rows and columns) of an edge in depth, else 0. An edge lies between two neighbouring

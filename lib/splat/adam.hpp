@@ -21,7 +21,8 @@ struct AdamOptions {
 
 /// Adam (Kingma and Ba 2015, algorithm 1) for one attribute: rows of `stride` floats, N of them, on the device. The
 /// first `head` elements of a row move at the rate itself, the others at rate * rest_ratio (SH: colour and details).
-/// Holds both moments and the number of steps made, all of which a checkpoint can take out and put back. Deterministic; queued. Not thread safe.
+/// Holds both moments and the number of steps made, all of which a checkpoint can take out and put back. Deterministic;
+/// queued. Not thread safe.
 class Adam {
  public:
   /// stride >= 1, 0 <= head <= stride, rest_ratio >= 0.

@@ -68,8 +68,8 @@ void scatter(TrainingRows& rows, std::size_t i, std::size_t axes, double stretch
 }
 
 double largest_axis(const Gaussians& g, std::size_t i) {
-  return std::exp(static_cast<double>(
-      std::max({g.log_scales[3 * i], g.log_scales[3 * i + 1], g.log_scales[3 * i + 2]})));
+  return std::exp(
+      static_cast<double>(std::max({g.log_scales[3 * i], g.log_scales[3 * i + 1], g.log_scales[3 * i + 2]})));
 }
 
 }  // namespace

@@ -56,11 +56,11 @@ struct TrainingRows {
   void keep(const std::vector<bool>& keep);
 };
 
-/// Dead Gaussians (opacity at most dead_opacity) are moved onto live ones drawn by opacity, and new ones are added there
-/// while there are fewer than the budget. Opacity and size of those that share a place are set so that together they
-/// look like the one before.
-/// Source: Kheradmand et al. 2024 (3DGS as MCMC), eq. 9. Differs: copies are drawn from the Gaussian's own extent in its
-/// plane instead of noise in every step, so that a surface stays where it is; the third axis keeps its thickness.
+/// Dead Gaussians (opacity at most dead_opacity) are moved onto live ones drawn by opacity, and new ones are added
+/// there while there are fewer than the budget. Opacity and size of those that share a place are set so that together
+/// they look like the one before. Source: Kheradmand et al. 2024 (3DGS as MCMC), eq. 9. Differs: copies are drawn from
+/// the Gaussian's own extent in its plane instead of noise in every step, so that a surface stays where it is; the
+/// third axis keeps its thickness.
 void relocate(TrainingRows& rows, const DensifyOptions& options, Random& random);
 
 /// pulls [N] and seen [N] as screen_statistics.cl sums them; camera_extent [m].

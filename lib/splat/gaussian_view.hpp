@@ -8,28 +8,28 @@
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/splat/device_gaussians.hpp"
 #include "odosplat/splat/rasterizer.hpp"
+#include "odosplat/splat/sigma_model.hpp"
 
 namespace odosplat {
 
 struct GaussianViewOptions {
-  DepthMode depth_mode = DepthMode::expected;
-  float min_alpha = 0.5F;       // pixels that the map covers less have no depth, 0..1
-  float sigma_floor = 0.003F;   // share of depth that its standard deviation is never below, >= 0
-  float sigma_slope_px = 0.5F;  // error in the image plane that a sloped surface turns into one of depth [px], >= 0
+  DepthMode depth_mode = DepthMode::surface;
+  float min_alpha = 0.5F;  // pixels that the map covers less have no depth, 0..1
+  SigmaModel sigma;        // the map's own (calibrated_sigma, map_file.hpp), if it knows it
   RasterizerOptions rasterizer;
 
   /// Throws InputError naming the field.
   void check() const;
 };
 
+/// "expected", "median", "blended" or "surface"; InputError else.
+DepthMode depth_mode(const std::string& name);
+
 /// A trained map of Gaussians, looked at from any pose.
 /// depth [m] as depth_mode says, 0 where alpha < min_alpha. color 0..1 on black, not divided by alpha.
-/// sigma [m], the root of a sum of squares: the spread of the Gaussians along the ray (sqrt(sum w (z - depth)^2 / sum
-/// w); with depth mode expected only: the others have no mean to spread around), sigma_slope_px times the slope of
-/// depth in the image [m/px] (central differences between pixels with depth), and sigma_floor times depth. Source: the
-/// pieces are those of the project's design notes: what a tracker needs to weigh a depth by. The Gaussians may be none:
-/// images of zeros. Frame: world of the Gaussians. Throws InputError for bad options, Gaussians or camera. Contract of
-/// MapView otherwise.
+/// sigma [m] by the sigma model, 0 where depth is 0; of median and blended depth, which have no mean to spread around,
+/// the share of depth alone. The Gaussians may be none: images of zeros. Frame: world of the Gaussians. Throws
+/// InputError for bad options, Gaussians or camera. Contract of MapView otherwise.
 class GaussianView : public MapView {
  public:
   GaussianView(const compute::Context& context, const Gaussians& gaussians, const GaussianViewOptions& options = {});
@@ -43,6 +43,8 @@ class GaussianView : public MapView {
  private:
   RenderRequest raster_request(const ViewRequest& request) const;
   ColorImage download_color(int height, int width);
+  /// The images of the last forward call.
+  ViewImages take(int height, int width, const ViewRequest& request);
 
   GaussianViewOptions options_;
   DeviceGaussians gaussians_;

@@ -135,6 +135,19 @@ PointCloud smoothed_cloud(const PointCloud& input, const InitializeOptions& opti
   return cloud;
 }
 
+double noise_left(const PointCloud& cloud, const PointCloud& smoothed, const InitializeOptions& options) {
+  require(cloud.size() == smoothed.size() && smoothed.has_normals(), "smoothed", "the cloud after smoothing");
+  if (cloud.size() == 0 || options.smoothing_neighbors == 0) return 0.0;
+  std::vector<float> moved(cloud.size());
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    moved[i] = std::abs(smoothed.normals[i].dot(smoothed.points[i] - cloud.points[i]));
+  const auto middle = moved.begin() + static_cast<std::ptrdiff_t>(moved.size() / 2);
+  std::nth_element(moved.begin(), middle, moved.end());
+  // 1.4826: from the median absolute value of a normal distribution to its standard deviation. 0.76: share of the
+  // neighbours that the weights of smooth() leave effective.
+  return 1.4826 * static_cast<double>(*middle) / std::sqrt(0.76 * (options.smoothing_neighbors + 1));
+}
+
 Gaussians gaussians_from_cloud(const PointCloud& input, const InitializeOptions& options) {
   options.check();
   if (input.size() == 0) throw InputError("cloud", "holds no points");

@@ -41,12 +41,18 @@ struct InitializeOptions {
 /// (Fleishman et al. 2003, bilateral mesh denoising, on points). Errors as of gaussians_from_cloud.
 PointCloud smoothed_cloud(const PointCloud& cloud, const InitializeOptions& options);
 
+/// Standard deviation [m] of the noise that smoothing left in the points, along their normals: what map and surface
+/// have in common and a comparison of the two does not show. From how far points moved (robustly), divided by the root
+/// of the number of neighbours that a point was averaged with. The cloud before and after, point by point.
+double noise_left(const PointCloud& cloud, const PointCloud& smoothed, const InitializeOptions& options);
+
 /// One Gaussian a point: the start of training.
 /// Source: the paper's section on map training (a Gaussian a point, opacity 0.8), Kerbl et al. 2023 (size from the
 /// three nearest neighbours). Differs: by default flat discs on the cloud's normals, because depth of round Gaussians
-/// lies up to one standard deviation before the surface; and points are smoothed first (smoothed_cloud). Positions in the
-/// cloud's world frame [m]. Axis 2 of a disc is its normal. Colours 0..1 go to the SH term of degree 0; a cloud without colours becomes grey (discs) or random (random).
-/// Throws InputError for an empty cloud, for points that are not finite, and for bad options. Deterministic for a seed.
+/// lies up to one standard deviation before the surface; and points are smoothed first (smoothed_cloud). Positions in
+/// the cloud's world frame [m]. Axis 2 of a disc is its normal. Colours 0..1 go to the SH term of degree 0; a cloud
+/// without colours becomes grey (discs) or random (random). Throws InputError for an empty cloud, for points that are
+/// not finite, and for bad options. Deterministic for a seed.
 Gaussians gaussians_from_cloud(const PointCloud& cloud, const InitializeOptions& options);
 
 }  // namespace odosplat

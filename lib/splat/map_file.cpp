@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -82,6 +83,23 @@ Gaussians read_map(const std::string& path) {
   }
   if (gaussians.empty()) throw InputError(path, "holds no Gaussians");
   return gaussians;
+}
+
+SigmaModel read_sigma_model(const std::string& path) {
+  constexpr int most_lines = 10000;  // of a header; a file that is no PLY need not end its lines
+  const std::string comment = "comment ";
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::string> notes;
+  std::string line;
+  for (int i = 0; i < most_lines && std::getline(file, line) && line != "end_header"; ++i) {
+    if (i == 0 && !line.starts_with("ply")) break;
+    if (line.starts_with(comment)) notes.push_back(line.substr(comment.size()));
+  }
+  try {
+    return SigmaModel::from_lines(notes);
+  } catch (const InputError& e) {
+    throw InputError(path, "header", e.what());
+  }
 }
 
 void write_map(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {

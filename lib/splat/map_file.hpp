@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "odosplat/splat/gaussians.hpp"
+#include "odosplat/splat/sigma_model.hpp"
 
 namespace odosplat {
 
@@ -17,6 +18,10 @@ namespace odosplat {
 /// Throws InputError naming the file and the fault: missing file or property, a number of f_rest that fits no degree, a
 /// value that is not finite (naming the Gaussian), no Gaussians, and what read_ply refuses.
 Gaussians read_map(const std::string& path);
+
+/// How sure the map's depth is, from the header's comments "sigma_..." that training writes (SigmaModel::to_lines); the
+/// defaults where there are none (maps trained elsewhere, other formats). InputError if they are no numbers.
+SigmaModel read_sigma_model(const std::string& path);
 
 /// Writes that layout, binary little endian, floats, with nx ny nz = direction of the shortest axis (unit length, side
 /// arbitrary), so that readers of point clouds find normals. The header's comments name the format's version, the

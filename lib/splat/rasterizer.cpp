@@ -44,11 +44,17 @@ Shell chosen_shell(Shell wanted, const compute::Context& context) {
   return context.is_cpu() ? Shell::tile : Shell::pixel;
 }
 
+// As final_sigma of composite.cl takes them.
+std::array<float, 4> squares_of(const SigmaModel& m) {
+  return {m.spread * m.spread, m.slope_px * m.slope_px, m.depth_share * m.depth_share, m.open_share * m.open_share};
+}
+
 // Number of the mode in raster_common.cl.
 int mode_number(bool depth, DepthMode mode) {
   if (!depth) return 0;
   if (mode == DepthMode::expected) return 1;
-  return mode == DepthMode::median ? 2 : 3;
+  if (mode == DepthMode::median) return 2;
+  return mode == DepthMode::blended ? 3 : 4;
 }
 
 }  // namespace
@@ -154,7 +160,7 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, const Part& par
                           : Range::grid(static_cast<std::size_t>(view.grid[2]) * TILE_WIDTH,
                                         static_cast<std::size_t>(view.grid[3]) * TILE_HEIGHT, TILE_WIDTH, TILE_HEIGHT);
   composite(range, pairs.tile_start(), pairs.list(), splats, view.grid, out.color, out.depth, out.alpha, out.sigma,
-            part.tiles.sparse, part.tiles.blocks);
+            squares_of(request.sigma_model), part.tiles.sparse, part.tiles.blocks);
 }
 
 void Rasterizer::Impl::forward_pixels(const DeviceGaussians& gaussians, const std::vector<cv::Point>& pixels,
@@ -237,8 +243,10 @@ void Rasterizer::Impl::prepare(const DeviceGaussians& gaussians, const Camera& c
   require(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height) <= max_pixels, "image size",
           "at most 2^28 pixels");
   require(T_world_camera.is_finite(), "camera pose", "finite");
-  require(!wanted.sigma || (wanted.depth && wanted.depth_mode == DepthMode::expected), "sigma",
-          "asked for together with expected depth");
+  wanted.sigma_model.check();
+  require(!wanted.sigma ||
+              (wanted.depth && (wanted.depth_mode == DepthMode::expected || wanted.depth_mode == DepthMode::surface)),
+          "sigma", "asked for together with expected depth");
   require(wanted.sh_degree >= 0, "sh_degree", "0 or more");
   rendered = false;
   count = gaussians.size();
@@ -277,6 +285,8 @@ void Rasterizer::backward(const DeviceGaussians& gaussians, const OutputGradient
   require(fits(output_gradients.depth, m.request.depth ? pixels : 0), "depth gradient",
           "of the size of the image rendered");
   require(fits(output_gradients.alpha, pixels), "alpha gradient", "of the size of the image rendered");
+  require(output_gradients.depth.empty() || m.request.depth_mode != DepthMode::surface, "depth gradient",
+          "of expected, median or blended depth");
   m.backward(gaussians, output_gradients, gradients, pose_gradient != nullptr);
   if (pose_gradient != nullptr) *pose_gradient = m.pose_gradient();
 }

@@ -12,6 +12,7 @@
 #include "odosplat/core/camera.hpp"
 #include "odosplat/core/se3.hpp"
 #include "odosplat/splat/device_gaussians.hpp"
+#include "odosplat/splat/sigma_model.hpp"
 
 namespace odosplat {
 
@@ -19,12 +20,13 @@ namespace odosplat {
 enum class DepthMode {
   expected,  // sum w z / sum w; 0 where no Gaussian touches the pixel
   median,    // z of the Gaussian that takes the transmittance below 0.5; 0 where none does
-  blended    // sum w z, as in the paper: not divided by alpha, no background
+  blended,   // sum w z, as in the paper: not divided by alpha, no background
+  surface  // expected; where its spread is above SURFACE_SPREAD of it, so that two surfaces meet, median (no backward)
 };
 
 /// What the depth of a Gaussian at a pixel is.
 enum class DepthKind {
-  automatic,  // ray_plane for expected and median, centre for blended (the paper's)
+  automatic,  // ray_plane; centre for blended (the paper's)
   centre,     // depth of its centre
   ray_plane   // where the ray meets the plane along which the Gaussian is densest: inverse depth linear in the pixel
 };
@@ -50,8 +52,9 @@ struct RasterizerOptions {
 struct RenderRequest {
   bool color = false;
   bool depth = true;
-  bool sigma = false;  // needs depth with mode expected
+  bool sigma = false;  // needs depth with mode expected or surface
   DepthMode depth_mode = DepthMode::expected;
+  SigmaModel sigma_model = SigmaModel::plain_spread();
   int sh_degree = 3;  // degree used, at most that of the Gaussians
 };
 
@@ -62,8 +65,9 @@ struct RenderOutput {
   compute::Buffer<float> color;  // [3 x H x W] planes R, G, B; 0.. (not clamped above); background black
   compute::Buffer<float> depth;  // [H x W] m along the optical axis, 0 = none
   compute::Buffer<float> alpha;  // [H x W] 0..1
-  compute::Buffer<float>
-      sigma;  // [H x W] m, spread along the ray sqrt(sum w (z - depth)^2 / sum w); 0 where depth is 0
+  // [H x W] m, by the request's sigma_model, with the spread along the ray sqrt(sum w (z - expected)^2 / sum w) and the
+  // mean slope of the Gaussians' planes sum w slope / sum w; 0 where no Gaussian touches the pixel.
+  compute::Buffer<float> sigma;
 };
 
 /// dL/d(image) for backward, shapes as in RenderOutput. A buffer of size 0 means that L does not depend on that image.

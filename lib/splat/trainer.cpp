@@ -78,8 +78,12 @@ std::string checksum_of_start(const Gaussians& initial, const TrainingViews& vie
     const Eigen::Matrix4d pose = views.T_world_camera(i).matrix();
     const Camera camera = views.camera(i);
     hash = hashed(hash, pose.data(), sizeof(double) * 16);
-    const double numbers[6] = {static_cast<double>(camera.width), static_cast<double>(camera.height),
-                               camera.fx, camera.fy, camera.cx, camera.cy};
+    const double numbers[6] = {static_cast<double>(camera.width),
+                               static_cast<double>(camera.height),
+                               camera.fx,
+                               camera.fy,
+                               camera.cx,
+                               camera.cy};
     hash = hashed(hash, numbers, sizeof(numbers));
   }
   std::ostringstream text;
@@ -164,8 +168,7 @@ TrainingStep Trainer::step() {
   if (exposures_.on()) exposures_.apply(view, rendered_.color, exposed_);
   loss_.evaluate(exposures_.on() ? exposed_ : rendered_.color, targets_.color(), camera.width, camera.height,
                  image_gradients_.color);
-  if (exposures_.on())
-    exposures_.backward(view, rendered_.color, camera.width, camera.height, image_gradients_.color);
+  if (exposures_.on()) exposures_.backward(view, rendered_.color, camera.width, camera.height, image_gradients_.color);
   if (with_depth())
     depth_loss_.evaluate(rendered_.depth, targets_.depth(), targets_.depth_weight(), camera.width, camera.height,
                          image_gradients_.depth);
@@ -223,8 +226,7 @@ void Trainer::densify() {
     else
       clone_and_split(rows, d, pulls_.download(), seen_.download(), camera_extent_, random);
     gaussians_.upload(context_, rows.gaussians);
-    if (!largest_log_scales_.empty())
-      largest_log_scales_ = compute::Buffer<float>(context_, rows.largest_log_scales);
+    if (!largest_log_scales_.empty()) largest_log_scales_ = compute::Buffer<float>(context_, rows.largest_log_scales);
     if (!anchors_.empty()) anchors_ = compute::Buffer<float>(context_, rows.anchors);
     for (Adam* optimiser : optimisers()) optimiser->rearrange(rows.from);
     if (!pulls_.empty()) {

@@ -17,8 +17,8 @@ struct TrainingStep {
   int iteration = 0;  // 1 for the first
   int view = 0;
   int level = 0;
-  LossValue value;               // of the image
-  double depth_error = 0.0;      // weighted mean relative difference to the surface (DepthLoss), 0 without
+  LossValue value;           // of the image
+  double depth_error = 0.0;  // weighted mean relative difference to the surface (DepthLoss), 0 without
 };
 
 struct TrainingReport {

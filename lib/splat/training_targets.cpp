@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 
 #include "odosplat/core/error.hpp"
@@ -14,6 +13,22 @@ namespace odosplat {
 namespace {
 // Depth whose standard deviation is this share of it counts half.
 constexpr float uncertain_share = 0.01F;
+// Around a step in depth the cloud does not say to the pixel where one surface ends: only the images do.
+constexpr int edge_radius = 2;       // [px]
+constexpr float edge_share = 0.05F;  // of depth
+
+/// Whether a hole or another surface is within edge_radius.
+bool near_edge(const DepthImage& depth, int pixel) {
+  const int x = pixel % depth.cols;
+  const int y = pixel / depth.cols;
+  const float z = depth(y, x);
+  for (int v = std::max(0, y - edge_radius); v <= std::min(depth.rows - 1, y + edge_radius); ++v) {
+    const float* row = depth[v];
+    for (int u = std::max(0, x - edge_radius); u <= std::min(depth.cols - 1, x + edge_radius); ++u)
+      if (!(row[u] > 0.0F) || std::abs(row[u] - z) > edge_share * z) return true;
+  }
+  return false;
+}
 }  // namespace
 
 TrainingTargets::TrainingTargets(const compute::Context& context, TrainingViews& views, MapView* surface,
@@ -69,22 +84,10 @@ TrainingTargets::Stored TrainingTargets::render_depth(int view) const {
   if (!(stored.unit > 0.0F)) return stored;
   for (std::size_t i = 0; i < pixels; ++i) {
     const float z = images.depth[0][i];
-    if (!(z > 0.0F)) continue;
+    if (!(z > 0.0F) || near_edge(images.depth, static_cast<int>(i))) continue;
     stored.depth[i] = static_cast<std::uint16_t>(std::lround(z / stored.unit));
     const float relative = images.sigma.empty() ? 0.0F : images.sigma[0][i] / (uncertain_share * z);
     stored.weight[i] = static_cast<std::uint8_t>(std::lround(255.0F / (1.0F + relative * relative)));
-  }
-  static const int radius = std::getenv("X_EDGE") ? std::atoi(std::getenv("X_EDGE")) : 0;
-  static const float jump = std::getenv("X_JUMP") ? static_cast<float>(std::atof(std::getenv("X_JUMP"))) : 0.05F;
-  if (radius > 0) {
-    const cv::Mat1f& d = images.depth;
-    for (int y = 0; y < d.rows; ++y) for (int x = 0; x < d.cols; ++x) {
-      bool edge = false;
-      for (int v = std::max(0, y - radius); v <= std::min(d.rows - 1, y + radius); ++v)
-        for (int u = std::max(0, x - radius); u <= std::min(d.cols - 1, x + radius); ++u)
-          edge = edge || !(d(v, u) > 0.0F) || std::abs(d(v, u) - d(y, x)) > jump * d(y, x);
-      if (edge) stored.weight[static_cast<std::size_t>(y * d.cols + x)] = 0;
-    }
   }
   return stored;
 }

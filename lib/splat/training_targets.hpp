@@ -43,10 +43,12 @@ class TrainingTargets {
   void load(int view, int level);
   /// Camera of what was loaded.
   const Camera& camera() const { return camera_; }
-  const compute::Buffer<float>& color() const { return color_; }            // [3 x H x W]
+  const compute::Buffer<float>& color() const { return color_; }  // [3 x H x W]
   bool has_depth() const { return surface_ != nullptr; }
-  const compute::Buffer<float>& depth() const { return depth_; }            // [H x W] m, 0: none
-  const compute::Buffer<float>& depth_weight() const { return weight_; }    // [H x W] 0..1: less where it is uncertain
+  const compute::Buffer<float>& depth() const { return depth_; }  // [H x W] m, 0: none
+  const compute::Buffer<float>& depth_weight() const {
+    return weight_;
+  }  // [H x W] 0..1: less where it is uncertain, 0 at edges
 
  private:
   struct Stored {

@@ -50,18 +50,15 @@ TEST(GaussianView, KeepsWhatEveryMapViewMust) {
   check_empty_map_view(empty, scene.camera, SE3());
 }
 
-TEST(GaussianView, SigmaOfSomePixelsIsSpreadAndFloor) {
+TEST(GaussianView, SomePixelsHaveTheSigmaOfTheWhole) {
   const CornerScene scene;
-  GaussianViewOptions options;
-  options.sigma_slope_px = 0.0F;
-  GaussianView view(compute::Context::open(), corner(), options);
+  GaussianView view(compute::Context::open(), corner());
   std::vector<cv::Point> pixels;
   for (int x = 0; x < scene.camera.width; x += 3) pixels.emplace_back(x, scene.camera.height / 2);
   const ViewImages whole = view.render(scene.camera, scene.T_world_camera(2), {});
   const ViewImages some = view.render_pixels(scene.camera, scene.T_world_camera(2), {}, pixels);
   for (int i = 0; i < some.sigma.cols; ++i) {
-    const float expected = whole.sigma(pixels[static_cast<std::size_t>(i)]);
-    EXPECT_NEAR(some.sigma(0, i), expected, 1e-6F * expected);
+    EXPECT_EQ(some.sigma(0, i), whole.sigma(pixels[static_cast<std::size_t>(i)]));
   }
 }
 
@@ -79,10 +76,11 @@ TEST(GaussianView, SigmaCoversTheSlopeAndHasAFloor) {
       else
         EXPECT_EQ(images.sigma(y, x), 0.0F);
     }
-  // Low in the image is floor, seen at a slant: half a pixel there is this much depth.
+  // Low in the image is floor, seen at a slant: half a pixel there is this much depth
   const int y = scene.camera.height - 4;
   const int x = scene.camera.width / 2;
-  EXPECT_GT(images.sigma(y, x), 0.9F * 0.25F * std::abs(truth(y - 1, x) - truth(y + 1, x)));
+  // (a little less: the slopes of discs seen at a slant are bounded, PLANE_DILATION).
+  EXPECT_GT(images.sigma(y, x), 0.8F * 0.25F * std::abs(truth(y - 1, x) - truth(y + 1, x)));
   EXPECT_LT(images.sigma(y, x), 0.1F * truth(y, x));
 }
 

@@ -28,12 +28,13 @@ TEST_P(RasterForward, EqualsTwinOnAllScenes) {
   for (const bool compensated : {false, true}) {
     Rasterizer rasterizer = make_rasterizer(GetParam(), compensated);
     for (const RasterScene& scene : all_scenes()) {
-      for (const DepthMode mode : {DepthMode::expected, DepthMode::median, DepthMode::blended}) {
+      for (const DepthMode mode : {DepthMode::expected, DepthMode::median, DepthMode::blended, DepthMode::surface}) {
         SCOPED_TRACE(scene.name + " mode " + std::to_string(static_cast<int>(mode)));
         RenderRequest request;
         request.color = true;
-        request.sigma = mode == DepthMode::expected;
+        request.sigma = mode == DepthMode::expected || mode == DepthMode::surface;
         request.depth_mode = mode;
+        if (mode == DepthMode::surface) request.sigma_model = {0.8F, 0.6F, 0.004F, 0.3F};
         const HostImages images = render(rasterizer, test_context(), scene, request);
         const reference::Images truth =
             reference::composite(reference::project(reference::Scene(scene.gaussians), scene.camera,

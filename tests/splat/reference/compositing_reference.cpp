@@ -14,6 +14,7 @@ constexpr auto min_alpha = static_cast<double>(MIN_ALPHA);
 constexpr auto max_alpha = static_cast<double>(MAX_ALPHA);
 constexpr auto min_transmittance = static_cast<double>(MIN_TRANSMITTANCE);
 constexpr auto min_ratio = static_cast<double>(MIN_PLANE_RATIO);
+constexpr auto surface_spread = static_cast<double>(SURFACE_SPREAD);
 
 // A Gaussian at a pixel.
 struct Sample {
@@ -97,7 +98,7 @@ Images composite(const std::vector<Splat>& splats, const Camera& camera, const R
     } else {
       out.margin[i] = decide(splats, order, x, y, pixel);
     }
-    double T = 1.0, weighted = 0.0, median = 0.0;
+    double T = 1.0, weighted = 0.0, median = 0.0, sloped = 0.0;
     std::vector<std::pair<double, double>> weights;  // w, z
     for (const Contribution& c : pixel) {
       const Splat& s = splats[c.gaussian];
@@ -108,6 +109,7 @@ Images composite(const std::vector<Splat>& splats, const Camera& camera, const R
         out.color[channel * pixels + i] += w * s.value[9 + channel];
       }
       weighted += w * z;
+      sloped += w * s.value[6] * std::hypot(s.value[7], s.value[8]);
       if (c.median) median = z;
       weights.emplace_back(w, z);
       T *= 1.0 - alpha_of(at, c);
@@ -117,10 +119,28 @@ Images composite(const std::vector<Splat>& splats, const Camera& camera, const R
       const double mean = weighted / out.alpha[i];
       double square = 0.0;
       for (const auto& [w, z] : weights) square += w * (z - mean) * (z - mean);
-      out.sigma[i] = std::sqrt(square / out.alpha[i]);
-      out.depth[i] = request.depth_mode == DepthMode::expected ? mean
-                     : request.depth_mode == DepthMode::median ? median
-                                                               : weighted;
+      const double spread = std::sqrt(square / out.alpha[i]);
+      const double mixed = spread / (surface_spread * mean);
+      if (request.depth_mode == DepthMode::surface) out.margin[i] = std::min(out.margin[i], std::abs(mixed - 1.0));
+      switch (request.depth_mode) {
+        case DepthMode::expected:
+          out.depth[i] = mean;
+          break;
+        case DepthMode::median:
+          out.depth[i] = median;
+          break;
+        case DepthMode::blended:
+          out.depth[i] = weighted;
+          break;
+        case DepthMode::surface:
+          out.depth[i] = mixed > 1.0 && median > 0.0 ? median : mean;
+          break;
+      }
+      const SigmaModel& model = request.sigma_model;
+      const auto factor = [](float f) { return static_cast<double>(f); };
+      out.sigma[i] = std::hypot(
+          std::hypot(factor(model.spread) * spread, factor(model.slope_px) * sloped / out.alpha[i]),
+          std::hypot(factor(model.depth_share) * out.depth[i], factor(model.open_share) * T * out.depth[i]));
     }
     if (made != nullptr) (*made)[i] = std::move(pixel);
   }
