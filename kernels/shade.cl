@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
    One item a Gaussian: colour = max(0, 0.5 + sum_k basis_k(direction) sh[k]). `stored`: coefficients a channel in sh. */
-kernel void shade(int n, global const float* restrict positions, global const float* restrict sh, int degree, int stored,
-                  float16 pose, global const uint* restrict counts, global float4* restrict colors) {
+kernel void shade(int n, global const float* restrict positions, global const float* restrict sh, int stored, float16 pose,
+                  global const uint* restrict counts, global float4* restrict colors) {
   const int g = get_global_id(0);
   if (g >= n || counts[g] == 0) return;
   const float3 direction = normalize(vload3(g, positions) - pose.scde);
-  float basis[16];
-  sh_basis(degree, direction, basis);
+  float basis[SH_USED];
+  sh_basis(direction, basis);
   global const float* coefficient = sh + (size_t)g * (size_t)(3 * stored);
   float3 color = (float3)(0.5f);
-  const int used = (degree + 1) * (degree + 1);
-  for (int k = 0; k < used; ++k) color += basis[k] * vload3(k, coefficient);
+#pragma unroll
+  for (int k = 0; k < SH_USED; ++k) color += basis[k] * vload3(k, coefficient);
   colors[g] = (float4)(max(color, 0.0f), 0.0f);
 }

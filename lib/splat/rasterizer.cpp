@@ -149,8 +149,9 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, RenderOutput& o
           boxes, depth_keys);
   pairs.build(count, boxes, depth_keys, view.grid);
   if (request.color) {
-    kernel("shade", {"sh.cl", "shade.cl"})(items, n, gaussians.positions, gaussians.sh, std::int32_t{sh_degree},
-                                           std::int32_t{gaussians.coefficients()}, view.pose, pairs.counts(), colors);
+    kernel("shade", {"sh.cl", "shade.cl"}, define("SH_DEGREE", sh_degree))(items, n, gaussians.positions, gaussians.sh,
+                                                                           std::int32_t{gaussians.coefficients()},
+                                                                           view.pose, pairs.counts(), colors);
   }
   const std::size_t pixels = static_cast<std::size_t>(view.grid[0]) * static_cast<std::size_t>(view.grid[1]);
   out.width = view.grid[0];
@@ -202,10 +203,9 @@ void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGr
       pairs.offsets(), slots, gradients.positions, gradients.log_scales, gradients.rotations, gradients.opacity_logits,
       color_gradients, screen_gradients, std::int32_t{with_pose}, pose_terms);
   if (color) {
-    kernel("shade_backward", {"sh.cl", "shade_backward.cl"})(
-        items, n, gaussians.positions, gaussians.sh, std::int32_t{sh_degree}, std::int32_t{gaussians.coefficients()},
-        view.pose, pairs.counts(), colors, color_gradients, gradients.positions, gradients.sh, std::int32_t{with_pose},
-        pose_terms);
+    kernel("shade_backward", {"sh.cl", "shade_backward.cl"}, define("SH_DEGREE", sh_degree))(
+        items, n, gaussians.positions, gaussians.sh, std::int32_t{gaussians.coefficients()}, view.pose, pairs.counts(),
+        colors, color_gradients, gradients.positions, gradients.sh, std::int32_t{with_pose}, pose_terms);
   } else {
     gradients.sh.fill_zero();
   }
