@@ -6,7 +6,9 @@
    counts, digit by digit: [RADIX_DIGITS x groups]; their exclusive scan says where each group writes each digit. */
 
 /* `first` != 0: the input order is 0, 1, 2, ... and is not read. */
-inline uint group_radix_index(global const uint* restrict order, uint i, int first) { return first ? i : order[i]; }
+static inline uint group_radix_index(global const uint* restrict order, uint i, int first) {
+  return first ? i : order[i];
+}
 
 kernel __attribute__((reqd_work_group_size(SCAN_GROUP, 1, 1))) void group_radix_histogram(
     global const uint* restrict keys, global const uint* restrict order, global uint* restrict counts, uint n,

@@ -5,7 +5,7 @@
 
 /* Sum of `value` over the items before this one, and in *total over all of the group. All items must come here; `shared`
    has SCAN_GROUP elements and may be used again after the next barrier. */
-inline uint group_scan(uint value, local uint* shared, uint* total) {
+static inline uint group_scan(uint value, local uint* shared, uint* total) {
   const uint lane = (uint)get_local_id(0);
   uint sum = value;
   shared[lane] = sum;

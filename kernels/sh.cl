@@ -14,7 +14,7 @@
 #define SH_3D 0.37317633f
 #define SH_3E 1.44530572f
 
-inline void sh_basis(float3 d, float* basis) {
+static inline void sh_basis(float3 d, float* basis) {
   const float x = d.x, y = d.y, z = d.z;
   basis[0] = SH_0;
 #if SH_DEGREE >= 1
@@ -42,7 +42,7 @@ inline void sh_basis(float3 d, float* basis) {
 }
 
 /* d/d(x, y, z) of sum_k weight[k] basis[k]. */
-inline float3 sh_slope(float3 d, const float* weight) {
+static inline float3 sh_slope(float3 d, const float* weight) {
   const float x = d.x, y = d.y, z = d.z;
   float3 g = (float3)(0.0f);
 #if SH_DEGREE >= 1

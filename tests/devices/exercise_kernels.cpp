@@ -32,6 +32,8 @@ class Exercise {
  public:
   explicit Exercise(bool large) : large_(large) {
     context_.set_profiling(true);
+    const compute::DeviceInfo& device = context_.device();
+    std::cout << device.name << " (" << device.platform << ", driver " << device.driver_version << ")" << std::endl;
     if (large) {
       scene_ = overlapping_scene(400, 3, 77);
       scene_.camera = {160, 120, 170.0, 170.0, 79.5, 59.5};
