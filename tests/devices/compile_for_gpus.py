@@ -6,10 +6,10 @@
 compile_for_gpus.py --exercise BINARY --work FOLDER [--kernel NAME]
 
 exercise_kernels is run with a program cache of its own: the entries hold source and build options of every program as
-the libraries build them, so there is no second list of variants here. Programs of the tile shell are left out, for they
-are for CPUs. One line a kernel and variant is printed. Exit 1 if a kernel spills registers, uses
-private memory (scratch, .local), calls a function, or takes more than 16 KiB of local memory; exit 77 (skipped) where
-clang-15 or libclc-15 is missing. Registers of NVIDIA are shown where ptxas is on the path.
+the libraries build them, so there is no second list of variants here. Programs and kernels for CPUs are left out. One
+line a kernel and variant is printed. Exit 1 if a kernel spills registers, uses private memory (scratch, .local), calls a
+function, or takes more than 16 KiB of local memory; exit 77 (skipped) where clang-15 or libclc-15 is missing. Registers
+and spills of NVIDIA are shown where ptxas is on the path.
 """
 import argparse
 import concurrent.futures
@@ -30,6 +30,9 @@ TARGETS = {
                      "nvptx64--nvidiacl.bc"),
 }
 MAX_LOCAL_BYTES = 16 * 1024
+# The tile shell, and the projection of eight Gaussians an item; the sort of pairs over few long chunks.
+FOR_CPUS = ["SHELL_TILE=1", "GW=8"]
+KERNELS_FOR_CPUS = ["bin_histogram", "bin_totals", "bin_cursors", "bin_scatter"]
 
 
 def programs(folder):
@@ -43,7 +46,7 @@ def programs(folder):
         if magic != b"osplat01":
             raise SystemExit(f"{entry}: not an entry of a program cache")
         *_, options, text = content[32:32 + key_size].decode().split("\n", 5)
-        if "SHELL_TILE=1" in options:
+        if any(option in options for option in FOR_CPUS):
             continue
         defines = " ".join(re.findall(r"-D (\S+)", options))
         files = "+".join(re.findall(r'#line 1 "(\w+)\.cl"', text))
@@ -153,7 +156,7 @@ def main():
                 print(f"{target}: {name} does not compile:\n{error}")
                 continue
             for kernel, figure in figures.items():
-                if options.kernel not in kernel:
+                if options.kernel not in kernel or kernel in KERNELS_FOR_CPUS:
                     continue
                 kernels.add(kernel)
                 print(f"{figure['registers']:>24} {figure['spills']:>6} {figure['private']:>7} {figure['local']:>6} "
