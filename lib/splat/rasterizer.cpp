@@ -112,6 +112,8 @@ struct Rasterizer::Impl {
   std::string shell_options() const {
     return shell == Shell::tile ? define("SHELL_TILE", 1) + define("VW", block_pixels) : define("SHELL_TILE", 0);
   }
+  // One item `lanes` Gaussians.
+  Range groups() const { return Range::linear((count + lanes - 1) / lanes, lanes > 1 ? 1 : ITEM_GROUP); }
   void prepare(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
                const RenderRequest& wanted);
   void forward(const DeviceGaussians& gaussians, const Part& part, RenderOutput& out);
@@ -128,10 +130,10 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, const Part& par
   boxes.resize(context, box_floats * (count + lanes));
   depth_keys.resize(context, count);
   counts.resize(context, count);
-  project(Range::linear((count + lanes - 1) / lanes, lanes > 1 ? 1 : ITEM_GROUP), n, part.select, part.gaussians,
-          gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
-          view.lens, view.grid, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane},
-          part.tiles.sparse, part.tiles.blocks, splats, boxes, depth_keys, counts);
+  project(groups(), n, part.select, part.gaussians, gaussians.positions, gaussians.log_scales, gaussians.rotations,
+          gaussians.opacity_logits, view.pose, view.lens, view.grid, options.dilation,
+          std::int32_t{options.compensated}, std::int32_t{ray_plane}, part.tiles.sparse, part.tiles.blocks, splats,
+          boxes, depth_keys, counts);
   pairs.build(count, lanes, boxes, depth_keys, counts, view.grid, part.tiles);
   if (request.color) {
     kernel("shade", {"raster_common.cl", "sh.cl", "shade.cl"}, "shade")(
@@ -196,8 +198,8 @@ void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGr
   const auto n = static_cast<std::int32_t>(count);
   const Range items = Range::linear(count, ITEM_GROUP);
   const std::vector<std::string> files = {"raster_common.cl", "projection.cl", "project_backward.cl"};
-  kernel("project_backward", files, "backward", images)(
-      items, n, gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
+  kernel("project_backward", files, "backward", images + define("GW", static_cast<int>(lanes)))(
+      groups(), n, gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
       view.lens, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane}, counts, pairs.offsets(),
       slots, gradients.positions, gradients.log_scales, gradients.rotations, gradients.opacity_logits, color_gradients,
       screen_gradients, std::int32_t{with_pose}, pose_terms);
