@@ -31,7 +31,7 @@ CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, co
       "--device", common.device,
       "OpenCL device: index or part of a name (default: ODOSPLAT_DEVICE, else first GPU, else first CPU)");
   command->add_option("--threads", common.threads, "CPU threads, 0 = all cores")->check(CLI::NonNegativeNumber);
-  command->add_flag("--profile", common.profile, "print the time of every stage");
+  command->add_flag("--profile", common.profile, "print the device's time, stage by stage and kernel by kernel");
   command->add_option("--log", common.log, "debug, info, warning or off");
   command->set_config("--config", "", "read flags from a TOML file (flag = value)");
   command->parse_complete_callback([&common] {
@@ -53,10 +53,14 @@ compute::Context open_device(const Common& common) {
 
 void print_profile(const Common& common, const compute::Context& context) {
   if (!common.profile) return;
-  std::fprintf(stderr, "%-32s %10s %12s %10s\n", "kernel", "launches", "total ms", "ms each");
-  for (const compute::KernelTime& t : context.kernel_times()) {
-    std::fprintf(stderr, "%-32s %10ld %12.1f %10.3f\n", t.name.c_str(), t.launches, t.milliseconds,
-                 t.milliseconds / static_cast<double>(t.launches));
+  const auto print = [](const std::string& name, long launches, double milliseconds) {
+    std::fprintf(stderr, "%-32s %10ld %12.1f %10.3f\n", name.c_str(), launches, milliseconds,
+                 milliseconds / static_cast<double>(launches));
+  };
+  std::fprintf(stderr, "%-32s %10s %12s %10s\n", "stage, its kernels", "launches", "total ms", "ms each");
+  for (const compute::StageTime& stage : context.stage_times()) {
+    print(stage.stage, stage.launches, stage.milliseconds);
+    for (const compute::KernelTime& t : stage.kernels) print("  " + t.name, t.launches, t.milliseconds);
   }
 }
 

@@ -17,7 +17,7 @@ CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, co
 /// Opens the device that was asked for and says which one it is on the log.
 compute::Context open_device(const Common& common);
 
-/// With --profile: time of every kernel since the context was opened, on standard error.
+/// With --profile: time of every stage and its kernels since the context was opened, on standard error.
 void print_profile(const Common& common, const compute::Context& context);
 
 /// Ctrl-C and SIGTERM set a flag; long loops ask it. A second one ends the process at once.

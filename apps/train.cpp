@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "train.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -67,16 +68,21 @@ std::string progress_text(const TrainingStep& step, const TrainingReport& report
 
 void write_report(const TrainJob& job, const TrainingReport& report, const compute::Context& device) {
   if (job.report.empty()) return;
-  const nlohmann::ordered_json json{{"iterations", report.iterations},
-                                    {"gaussians", report.gaussians},
-                                    {"seconds", report.seconds},
-                                    {"iterations_per_second", report.iterations_per_second},
-                                    {"psnr_db", report.psnr_db},
-                                    {"peak_memory_mb", peak_memory_mb()},
-                                    {"preset", job.preset},
-                                    {"seed", job.seed},
-                                    {"device", device.device().name},
-                                    {"version", ODOSPLAT_VERSION}};
+  nlohmann::ordered_json json{{"iterations", report.iterations},
+                              {"gaussians", report.gaussians},
+                              {"seconds", report.seconds},
+                              {"iterations_per_second", report.iterations_per_second},
+                              {"psnr_db", report.psnr_db},
+                              {"peak_memory_mb", peak_memory_mb()},
+                              {"preset", job.preset},
+                              {"seed", job.seed},
+                              {"device", device.device().name},
+                              {"version", ODOSPLAT_VERSION}};
+  if (device.profiling()) {
+    nlohmann::ordered_json& stages = json["stages_ms"];  // a step, not the whole run
+    for (const compute::StageTime& stage : device.stage_times())
+      stages[stage.stage] = stage.milliseconds / std::max(1, report.iterations);
+  }
   write_file_atomically(job.report, json.dump(2) + "\n");
 }
 

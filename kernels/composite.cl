@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
    Front-to-back compositing of the tiles' lists into images.
-   Built with WITH_COLOR, WITH_SIGMA, DEPTH_MODE and one shell: SHELL_TILE (item a tile, VW pixels of a row at a time, all
-   sums in private arrays, no barrier: for CPUs) or not (item a pixel, group a tile, splats through local memory).
-   One step, the same in both, for VW pixels of a row against one splat: */
+   Built with WITH_COLOR, WITH_SIGMA, DEPTH_MODE and one shell: SHELL_TILE (item a tile, a block of 4 x 4 pixels at a time,
+   all sums in private arrays, no barrier: for CPUs) or not (item a pixel, group a tile, splats through local memory).
+   wanted: bits of the blocks to make, a word a tile (block b: bit b, as in raster_common.cl), where `sparse`; else all are
+   made. Pixels of other blocks are left as they are (the pixel shell makes all of a tile that has a wanted block).
+   One step, the same in both, for VW pixels against one splat: */
 
 typedef struct {
   fV T;
@@ -34,10 +36,8 @@ inline void clear_pixels(Pixels* s) {
 #endif
 }
 
-/* e0 = log2 opacity - C dy^2, bd = B dy, ratio0 = 1 - slope_v dy. */
-inline void add_splat(Pixels* s, fV dx, float A, float bd, float e0, float depth, float slope_u, float ratio0,
-                      float4 color) {
-  const fV e = e0 - dx * (A * dx + bd);
+/* e: log2 alpha of the splat at the pixels; ratio: by what its centre's depth is divided there. */
+inline void add_splat(Pixels* s, fV e, fV ratio, float depth, float4 color) {
   const fV T = s->T;
   const iV m = MASK((e >= LOG2_MIN_ALPHA) & (T >= MIN_TRANSMITTANCE));
   const fV alpha = KEEP(min(exp2_poly(e), (fV)(MAX_ALPHA)), m);
@@ -50,7 +50,7 @@ inline void add_splat(Pixels* s, fV dx, float A, float bd, float e0, float depth
   s->b = s->b + w * color.z;
 #endif
 #if WITH_DEPTH
-  const fV z = depth / max(ratio0 - slope_u * dx, (fV)(MIN_PLANE_RATIO));
+  const fV z = depth / max(ratio, (fV)(MIN_PLANE_RATIO));
 #if DEPTH_MODE == DEPTH_MEDIAN
   s->depth = CHOOSE(s->depth, z, m & MASK((T >= 0.5f) & (T_after < 0.5f)));
 #elif WITH_SIGMA
@@ -92,90 +92,95 @@ inline fV final_sigma(const Pixels* s) {
 
 #define COMPOSITE_ARGUMENTS                                                                                     \
   global const uint *restrict tile_start, global const uint *restrict list, global const float4 *restrict splats, \
-      global const float4 *restrict colors, int4 size, global float *restrict color_out,                        \
-      global float *restrict depth_out, global float *restrict alpha_out, global float *restrict sigma_out
+      int4 size, global float *restrict color_out,                        \
+      global float *restrict depth_out, global float *restrict alpha_out, global float *restrict sigma_out, \
+      int sparse, global const uint *restrict wanted
 
 #if SHELL_TILE
 
-inline void store_row(global float* restrict image, int at, int count, fV value) {
-  if (count >= VW) {
-    store_fV(value, image + at);
-  } else {
-    float part[VW];
-    store_fV(value, part);
-    for (int i = 0; i < count; ++i) image[at + i] = part[i];
+/* A block's pixels into the image: row by row, those inside it. */
+inline void store_block(global float* restrict image, int2 at, int4 size, fV value) {
+  if (at.x + BLOCK <= size.x && at.y + BLOCK <= size.y) {
+    global float* to = image + at.y * size.x + at.x;
+    vstore4(value.s0123, 0, to);
+    vstore4(value.s4567, 0, to + size.x);
+    vstore4(value.s89ab, 0, to + 2 * size.x);
+    vstore4(value.scdef, 0, to + 3 * size.x);
+    return;
+  }
+  float part[VW];
+  vstore16(value, 0, part);
+  for (int i = 0; i < VW; ++i) {
+    const int x = at.x + i % BLOCK, y = at.y + i / BLOCK;
+    if (x < size.x && y < size.y) image[y * size.x + x] = part[i];
   }
 }
 
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void composite(COMPOSITE_ARGUMENTS) {
   const int tile = get_global_id(0);
-  const int x0 = (tile % size.z) * TILE_WIDTH, y0 = (tile / size.z) * TILE_HEIGHT;
-  const int rows = min(TILE_HEIGHT, size.y - y0);
-  Pixels sums[TILE_HEIGHT][NV];
-  for (int r = 0; r < TILE_HEIGHT; ++r) {
-    for (int v = 0; v < NV; ++v) {
-      clear_pixels(&sums[r][v]);
-      /* Pixels beyond the border count as finished. */
-      const fV outside = (fV)((float)(size.x - x0 - v * VW)) - RAMP;
-      sums[r][v].T = KEEP((fV)(1.0f), MASK(outside > 0.0f) & (iV)(r < rows ? -1 : 0));
-    }
+  const int2 corner = (int2)(tile % size.z * TILE_WIDTH, tile / size.z * TILE_HEIGHT);
+  const uint asked = sparse ? wanted[tile] : ~0u;
+  if (asked == 0) return;
+  Pixels sums[BLOCKS];
+  uint alive = 0;
+  for (int i = 0; i < BLOCKS; ++i) {
+    const int2 at = corner + block_corner(i);
+    clear_pixels(&sums[i]);
+    /* Pixels beyond the border count as finished. */
+    sums[i].T = KEEP((fV)(1.0f), inside_image(at, size));
+    if (at.x < size.x && at.y < size.y) alive |= 1u << i;
   }
-  const uint begin = tile_start[tile], end = tile_start[tile + 1];
-  const fV ramp = RAMP;
-  for (uint p = begin; p < end; ++p) {
-    const uint g = list[p];
-    const float4 s0 = splats[SPLAT_VECTORS * g], s1 = splats[SPLAT_VECTORS * g + 1];
+  alive &= asked;
+  const uint made = alive;
+  const uint end = tile_start[tile + 1];
+  float4 batch[SPLAT_VECTORS * TILE_BATCH];
+  for (uint p = tile_start[tile]; p < end && alive != 0; p += TILE_BATCH) {
+    const int count = (int)min((uint)TILE_BATCH, end - p);
+    load_batch(batch, count, list + p, splats);
+    for (int k = 0; k < count; ++k) {
+      const float4 s0 = batch[SPLAT_VECTORS * k], s1 = batch[SPLAT_VECTORS * k + 1];
 #if WITH_DEPTH
-    const float4 s2 = splats[SPLAT_VECTORS * g + 2];
+      const float4 s2 = batch[SPLAT_VECTORS * k + 2];
 #else
-    const float4 s2 = (float4)(0.0f);
+      const float4 s2 = (float4)(0.0f);
 #endif
 #if WITH_COLOR
-    const float4 color = colors[g];
+      const float4 color = batch[SPLAT_VECTORS * k + 3];
 #else
-    const float4 color = (float4)(0.0f);
+      const float4 color = (float4)(0.0f);
 #endif
-    const float middle = s0.y - (float)y0;
-    const int first = int_ceil(max(middle - s1.w, 0.0f));
-    const int last = int_floor(min(middle + s1.w, (float)(rows - 1)));
-    const fV dx0 = ramp + ((float)x0 - s0.x);
-    for (int r = first; r <= last; ++r) {
-      const float dy = (float)r - middle;
-      const float e0 = s1.y - s1.x * dy * dy, bd = s0.w * dy, ratio0 = 1.0f - s2.y * dy;
-      for (int v = 0; v < NV; ++v) {
-        add_splat(&sums[r][v], dx0 + (float)(v * VW), s0.z, bd, e0, s1.z, s2.x, ratio0, color);
-      }
+      BlockMiddles middles;
+      uint reached = reach_blocks(&middles, (float2)((float)corner.x, (float)corner.y) - s0.xy, s0.z, s0.w, s1.x, s1.y,
+                                  s2.xy) & alive;
+      if (reached == 0) continue;
+      const fV bend = block_bend(s0.z, s0.w, s1.x), tilt = s2.x * BLOCK_X + s2.y * BLOCK_Y;
+      do {
+        const int i = last_block(reached);
+        reached ^= 1u << i;
+        add_splat(&sums[i], block_exponent(&middles, i, bend), block_ratio(&middles, i, tilt), s1.z, color);
+      } while (reached != 0);
     }
-    if (((p - begin) & 31u) == 31u) {
-      fV most = sums[0][0].T;
-      for (int r = 0; r < TILE_HEIGHT; ++r) {
-        for (int v = 0; v < NV; ++v) most = max(most, sums[r][v].T);
-      }
-      float part[VW];
-      store_fV(most, part);
-      float any = part[0];
-      for (int i = 1; i < VW; ++i) any = max(any, part[i]);
-      if (any < MIN_TRANSMITTANCE) break;
+    for (int i = 0; i < BLOCKS; ++i) {
+      if ((alive >> i & 1u) != 0 && largest(sums[i].T) < MIN_TRANSMITTANCE) alive ^= 1u << i;
     }
   }
   const int pixels = size.x * size.y;
-  for (int r = 0; r < rows; ++r) {
-    for (int v = 0; v < NV; ++v) {
-      const Pixels* s = &sums[r][v];
-      const int x = x0 + v * VW, at = (y0 + r) * size.x + x, count = size.x - x;
-      store_row(alpha_out, at, count, 1.0f - s->T);
+  for (int i = 0; i < BLOCKS; ++i) {
+    if ((made >> i & 1u) == 0) continue;
+    const Pixels* s = &sums[i];
+    const int2 at = corner + block_corner(i);
+    store_block(alpha_out, at, size, 1.0f - s->T);
 #if WITH_COLOR
-      store_row(color_out, at, count, s->r);
-      store_row(color_out + pixels, at, count, s->g);
-      store_row(color_out + 2 * pixels, at, count, s->b);
+    store_block(color_out, at, size, s->r);
+    store_block(color_out + pixels, at, size, s->g);
+    store_block(color_out + 2 * pixels, at, size, s->b);
 #endif
 #if WITH_DEPTH
-      store_row(depth_out, at, count, final_depth(s));
+    store_block(depth_out, at, size, final_depth(s));
 #endif
 #if WITH_SIGMA
-      store_row(sigma_out, at, count, final_sigma(s));
+    store_block(sigma_out, at, size, final_sigma(s));
 #endif
-    }
   }
 }
 
@@ -191,6 +196,7 @@ kernel __attribute__((reqd_work_group_size(TILE_WIDTH, TILE_HEIGHT, 1))) void co
   Pixels sums;
   clear_pixels(&sums);
   if (!inside) sums.T = 0.0f;
+  if (sparse && wanted[tile] == 0) return; /* the whole group */
   const uint begin = tile_start[tile], end = tile_start[tile + 1];
   for (uint base = begin; base < end; base += PIXEL_BATCH) {
     const int count = (int)min((uint)PIXEL_BATCH, end - base);
@@ -203,7 +209,7 @@ kernel __attribute__((reqd_work_group_size(TILE_WIDTH, TILE_HEIGHT, 1))) void co
       batch1[lane] = splats[SPLAT_VECTORS * g + 1];
       batch2[lane] = splats[SPLAT_VECTORS * g + 2];
 #if WITH_COLOR
-      batch_color[lane] = colors[g];
+      batch_color[lane] = splats[SPLAT_VECTORS * g + 3];
 #endif
     }
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -212,7 +218,8 @@ kernel __attribute__((reqd_work_group_size(TILE_WIDTH, TILE_HEIGHT, 1))) void co
       for (int i = 0; i < count; ++i) {
         const float4 s0 = batch0[i], s1 = batch1[i], s2 = batch2[i];
         const float dx = (float)x - s0.x, dy = (float)y - s0.y;
-        add_splat(&sums, dx, s0.z, s0.w * dy, s1.y - s1.x * dy * dy, s1.z, s2.x, 1.0f - s2.y * dy,
+        const float e = s1.y - s1.x * dy * dy - dx * (s0.z * dx + s0.w * dy);
+        add_splat(&sums, e, 1.0f - s2.y * dy - s2.x * dx, s1.z,
 #if WITH_COLOR
                   batch_color[i]
 #else

@@ -18,14 +18,22 @@ typedef struct {
 } PixelGradients;
 
 #if SHELL_TILE
-inline fV load_row(global const float* restrict image, int at, int count) {
-  if (count >= VW) return load_fV(image + at);
+/* The block of pixels with first pixel (at % size.x, at / size.x); 0 for those outside the image. */
+inline fV load_pixels(global const float* restrict image, int at, int4 size) {
+  const int x = at % size.x, y = at / size.x;
+  if (x + BLOCK <= size.x && y + BLOCK <= size.y) {
+    global const float* from = image + at;
+    return (fV)(vload4(0, from), vload4(0, from + size.x), vload4(0, from + 2 * size.x), vload4(0, from + 3 * size.x));
+  }
   float part[VW];
-  for (int i = 0; i < VW; ++i) part[i] = i < count ? image[at + i] : 0.0f;
-  return load_fV(part);
+  for (int i = 0; i < VW; ++i) {
+    const int inside = x + i % BLOCK < size.x && y + i / BLOCK < size.y;
+    part[i] = inside ? image[at + i / BLOCK * size.x + i % BLOCK] : 0.0f;
+  }
+  return vload16(0, part);
 }
 #else
-#define load_row(image, at, count) ((image)[at])
+#define load_pixels(image, at, size) ((image)[at])
 #endif
 
 #define GRADIENT_IMAGES                                                                                          \
@@ -33,15 +41,15 @@ inline fV load_row(global const float* restrict image, int at, int count) {
       global const float *restrict depth, global const float *restrict alpha, global const float *restrict color_gradient, \
       global const float *restrict depth_gradient, global const float *restrict alpha_gradient
 
-inline PixelGradients load_gradients(int at, int count, GRADIENT_IMAGES) {
+inline PixelGradients load_gradients(int at, GRADIENT_IMAGES) {
   PixelGradients p;
-  const fV covered = load_row(alpha, at, count);
+  const fV covered = load_pixels(alpha, at, size);
   p.alpha = (fV)(0.0f);
-  if (has_alpha) p.alpha = load_row(alpha_gradient, at, count);
+  if (has_alpha) p.alpha = load_pixels(alpha_gradient, at, size);
   p.behind = p.alpha * covered;
 #if WITH_DEPTH
-  p.depth = load_row(depth_gradient, at, count);
-  p.reference = load_row(depth, at, count);
+  p.depth = load_pixels(depth_gradient, at, size);
+  p.reference = load_pixels(depth, at, size);
 #if DEPTH_MODE == DEPTH_EXPECTED
   p.depth = KEEP(p.depth / covered, MASK(covered > 0.0f));
 #elif DEPTH_MODE == DEPTH_BLENDED
@@ -51,11 +59,11 @@ inline PixelGradients load_gradients(int at, int count, GRADIENT_IMAGES) {
 #endif
 #if WITH_COLOR
   const int pixels = size.x * size.y;
-  p.r = load_row(color_gradient, at, count);
-  p.g = load_row(color_gradient + pixels, at, count);
-  p.b = load_row(color_gradient + 2 * pixels, at, count);
-  p.behind = p.behind + p.r * load_row(color, at, count) + p.g * load_row(color + pixels, at, count) +
-             p.b * load_row(color + 2 * pixels, at, count);
+  p.r = load_pixels(color_gradient, at, size);
+  p.g = load_pixels(color_gradient + pixels, at, size);
+  p.b = load_pixels(color_gradient + 2 * pixels, at, size);
+  p.behind = p.behind + p.r * load_pixels(color, at, size) + p.g * load_pixels(color + pixels, at, size) +
+             p.b * load_pixels(color + 2 * pixels, at, size);
 #endif
   return p;
 }
@@ -80,9 +88,9 @@ inline void clear_sums(Sums* s) {
 #endif
 }
 
-inline fV add_gradient(Sums* s, fV T, fV* behind, const PixelGradients* p, fV dx, float dy, float A, float bd, float e0,
-                       float depth, float slope_u, float ratio0, float4 color) {
-  const fV e = e0 - dx * (A * dx + bd);
+/* (dx, dy): from the splat's centre to the pixels; e, ratio_free: as `e` and `ratio` of add_splat in composite.cl. */
+inline fV add_gradient(Sums* s, fV T, fV* behind, const PixelGradients* p, fV dx, fV dy, fV e, fV ratio_free, float depth,
+                       float4 color) {
   const iV m = MASK((e >= LOG2_MIN_ALPHA) & (T >= MIN_TRANSMITTANCE));
   const fV full = exp2_poly(e);
   const fV alpha = KEEP(min(full, (fV)(MAX_ALPHA)), m);
@@ -90,7 +98,6 @@ inline fV add_gradient(Sums* s, fV T, fV* behind, const PixelGradients* p, fV dx
   const fV T_after = T - w;
   fV v = p->alpha;
 #if WITH_DEPTH
-  const fV ratio_free = ratio0 - slope_u * dx;
   const fV ratio = max(ratio_free, (fV)(MIN_PLANE_RATIO));
   const fV inverse_ratio = 1.0f / ratio;
   const fV z = depth * inverse_ratio;
@@ -129,7 +136,7 @@ inline fV add_gradient(Sums* s, fV T, fV* behind, const PixelGradients* p, fV dx
 
 #define BACKWARD_ARGUMENTS                                                                                            \
   global const uint *restrict tile_start, global const uint *restrict list, global const uint *restrict slot,         \
-      global const float4 *restrict splats, global const float4 *restrict colors, GRADIENT_IMAGES,                    \
+      global const float4 *restrict splats, GRADIENT_IMAGES,                                                         \
       global float *restrict slots
 #define GRADIENT_IMAGE_NAMES \
   size, has_alpha, color, depth, alpha, color_gradient, depth_gradient, alpha_gradient
@@ -138,11 +145,7 @@ inline fV add_gradient(Sums* s, fV T, fV* behind, const PixelGradients* p, fV dx
 
 /* Sum of the lanes, in a fixed order. */
 inline float lanes(fV v) {
-#if VW == 16
   const float8 v8 = v.lo + v.hi;
-#else
-  const float8 v8 = v;
-#endif
   const float4 v4 = v8.lo + v8.hi;
   const float2 v2 = v4.lo + v4.hi;
   return v2.x + v2.y;
@@ -150,79 +153,74 @@ inline float lanes(fV v) {
 
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void composite_backward(BACKWARD_ARGUMENTS) {
   const int tile = get_global_id(0);
-  const int x0 = (tile % size.z) * TILE_WIDTH, y0 = (tile / size.z) * TILE_HEIGHT;
-  const int rows = min(TILE_HEIGHT, size.y - y0);
+  const int2 corner = (int2)(tile % size.z * TILE_WIDTH, tile / size.z * TILE_HEIGHT);
   const uint begin = tile_start[tile], end = tile_start[tile + 1];
   if (begin == end) return;
-  const fV ramp = RAMP;
-  PixelGradients pixels[TILE_HEIGHT][NV];
-  fV T[TILE_HEIGHT][NV];
-  for (int r = 0; r < rows; ++r) {
-    for (int v = 0; v < NV; ++v) {
-      const int x = x0 + v * VW;
-      pixels[r][v] = load_gradients((y0 + r) * size.x + x, size.x - x, GRADIENT_IMAGE_NAMES);
-      T[r][v] = KEEP((fV)(1.0f), MASK((fV)((float)(size.x - x)) - ramp > 0.0f));
-    }
+  PixelGradients pixels[BLOCKS];
+  fV T[BLOCKS];
+  uint alive = 0;
+  for (int i = 0; i < BLOCKS; ++i) {
+    const int2 at = corner + block_corner(i);
+    if (at.x >= size.x || at.y >= size.y) continue;
+    pixels[i] = load_gradients(at.y * size.x + at.x, GRADIENT_IMAGE_NAMES);
+    T[i] = KEEP((fV)(1.0f), inside_image(at, size));
+    alive |= 1u << i;
   }
+  float4 batch[SPLAT_VECTORS * TILE_BATCH];
   uint p = begin;
-  for (; p < end; ++p) {
-    const uint g = list[p];
-    const float4 s0 = splats[SPLAT_VECTORS * g], s1 = splats[SPLAT_VECTORS * g + 1];
+  while (p < end && alive != 0) {
+    const int count = (int)min((uint)TILE_BATCH, end - p);
+    load_batch(batch, count, list + p, splats);
+    for (int k = 0; k < count; ++k, ++p) {
+      const float4 s0 = batch[SPLAT_VECTORS * k], s1 = batch[SPLAT_VECTORS * k + 1];
 #if WITH_DEPTH
-    const float4 s2 = splats[SPLAT_VECTORS * g + 2];
+      const float4 s2 = batch[SPLAT_VECTORS * k + 2];
 #else
-    const float4 s2 = (float4)(0.0f);
+      const float4 s2 = (float4)(0.0f);
 #endif
 #if WITH_COLOR
-    const float4 rgb = colors[g];
+      const float4 rgb = batch[SPLAT_VECTORS * k + 3];
 #else
-    const float4 rgb = (float4)(0.0f);
+      const float4 rgb = (float4)(0.0f);
 #endif
-    const float middle = s0.y - (float)y0;
-    const int first = int_ceil(max(middle - s1.w, 0.0f));
-    const int last = int_floor(min(middle + s1.w, (float)(rows - 1)));
-    const fV dx0 = ramp + ((float)x0 - s0.x);
-    Sums sums;
-    clear_sums(&sums);
-    for (int r = first; r <= last; ++r) {
-      const float dy = (float)r - middle;
-      const float e0 = s1.y - s1.x * dy * dy, bd = s0.w * dy, ratio0 = 1.0f - s2.y * dy;
-      for (int v = 0; v < NV; ++v) {
-        T[r][v] = add_gradient(&sums, T[r][v], &pixels[r][v].behind, &pixels[r][v], dx0 + (float)(v * VW), dy, s0.z,
-                               bd, e0, s1.z, s2.x, ratio0, rgb);
+      const float2 offset = (float2)((float)corner.x, (float)corner.y) - s0.xy;
+      BlockMiddles middles;
+      uint reached = reach_blocks(&middles, offset, s0.z, s0.w, s1.x, s1.y, s2.xy) & alive;
+      const fV bend = block_bend(s0.z, s0.w, s1.x), tilt = s2.x * BLOCK_X + s2.y * BLOCK_Y;
+      Sums sums;
+      clear_sums(&sums);
+      while (reached != 0) {
+        const int i = last_block(reached);
+        reached ^= 1u << i;
+        const int2 middle = block_corner(i);
+        const fV dx = BLOCK_X + (offset.x + ((float)middle.x + 1.5f)), dy = BLOCK_Y + (offset.y + ((float)middle.y + 1.5f));
+        T[i] = add_gradient(&sums, T[i], &pixels[i].behind, &pixels[i], dx, dy, block_exponent(&middles, i, bend),
+                            block_ratio(&middles, i, tilt), s1.z, rgb);
       }
+      global float* out = slots + (size_t)slot[p] * SLOT_FLOATS;
+      out[0] = lanes(sums.h);
+      out[1] = lanes(sums.hx);
+      out[2] = lanes(sums.hy);
+      out[3] = lanes(sums.hxx);
+      out[4] = lanes(sums.hxy);
+      out[5] = lanes(sums.hyy);
+#if WITH_DEPTH
+      out[SLOT_DEPTH] = lanes(sums.depth);
+      out[SLOT_DEPTH + 1] = lanes(sums.t);
+      out[SLOT_DEPTH + 2] = lanes(sums.tx);
+      out[SLOT_DEPTH + 3] = lanes(sums.ty);
+#endif
+#if WITH_COLOR
+      out[SLOT_COLOR] = lanes(sums.r);
+      out[SLOT_COLOR + 1] = lanes(sums.g);
+      out[SLOT_COLOR + 2] = lanes(sums.b);
+#endif
     }
-    global float* out = slots + (size_t)slot[p] * SLOT_FLOATS;
-    out[0] = lanes(sums.h);
-    out[1] = lanes(sums.hx);
-    out[2] = lanes(sums.hy);
-    out[3] = lanes(sums.hxx);
-    out[4] = lanes(sums.hxy);
-    out[5] = lanes(sums.hyy);
-#if WITH_DEPTH
-    out[SLOT_DEPTH] = lanes(sums.depth);
-    out[SLOT_DEPTH + 1] = lanes(sums.t);
-    out[SLOT_DEPTH + 2] = lanes(sums.tx);
-    out[SLOT_DEPTH + 3] = lanes(sums.ty);
-#endif
-#if WITH_COLOR
-    out[SLOT_COLOR] = lanes(sums.r);
-    out[SLOT_COLOR + 1] = lanes(sums.g);
-    out[SLOT_COLOR + 2] = lanes(sums.b);
-#endif
-    if (((p - begin) & 31u) == 31u) {
-      fV most = T[0][0];
-      for (int r = 0; r < rows; ++r) {
-        for (int v = 0; v < NV; ++v) most = max(most, T[r][v]);
-      }
-      float part[VW];
-      store_fV(most, part);
-      float any = part[0];
-      for (int i = 1; i < VW; ++i) any = max(any, part[i]);
-      if (any < MIN_TRANSMITTANCE) break;
+    for (int i = 0; i < BLOCKS; ++i) {
+      if ((alive >> i & 1u) != 0 && largest(T[i]) < MIN_TRANSMITTANCE) alive ^= 1u << i;
     }
   }
-  for (++p; p < end; ++p) {
+  for (; p < end; ++p) {
     global float* out = slots + (size_t)slot[p] * SLOT_FLOATS;
     for (int i = 0; i < SLOT_FLOATS; ++i) out[i] = 0.0f;
   }
@@ -250,7 +248,7 @@ kernel __attribute__((reqd_work_group_size(PIXEL_BATCH, 1, 1))) void composite_b
     T[i] = 0.0f;
     behind[i] = 0.0f;
     if (x < size.x && y < size.y) {
-      const PixelGradients loaded = load_gradients(y * size.x + x, 1, GRADIENT_IMAGE_NAMES);
+      const PixelGradients loaded = load_gradients(y * size.x + x, GRADIENT_IMAGE_NAMES);
       T[i] = 1.0f;
       behind[i] = loaded.behind;
       g_alpha[i] = loaded.alpha;
@@ -272,7 +270,7 @@ kernel __attribute__((reqd_work_group_size(PIXEL_BATCH, 1, 1))) void composite_b
     const uint g = active ? list[place] : 0u;
     const float4 s0 = splats[SPLAT_VECTORS * g], s1 = splats[SPLAT_VECTORS * g + 1], s2 = splats[SPLAT_VECTORS * g + 2];
 #if WITH_COLOR
-    const float4 rgb = colors[g];
+    const float4 rgb = splats[SPLAT_VECTORS * g + 3];
 #else
     const float4 rgb = (float4)(0.0f);
 #endif
@@ -306,8 +304,9 @@ kernel __attribute__((reqd_work_group_size(PIXEL_BATCH, 1, 1))) void composite_b
             pixel.b = g_b[i];
 #endif
             float rest = behind[i];
-            T[i] = add_gradient(&sums, T_before, &rest, &pixel, dx, dy, s0.z, s0.w * dy, s1.y - s1.x * dy * dy, s1.z,
-                                s2.x, 1.0f - s2.y * dy, rgb);
+            T[i] = add_gradient(&sums, T_before, &rest, &pixel, dx, dy,
+                                s1.y - s1.x * dy * dy - dx * (s0.z * dx + s0.w * dy), 1.0f - s2.y * dy - s2.x * dx, s1.z,
+                                rgb);
             behind[i] = rest;
           }
         }

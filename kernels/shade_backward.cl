@@ -4,7 +4,7 @@
    to whose results it adds. */
 kernel void shade_backward(int n, global const float* restrict positions, global const float* restrict sh, int stored,
                            float16 pose, global const uint* restrict counts,
-                           global const float4* restrict colors, global const float4* restrict color_gradients,
+                           global const float4* restrict splats, global const float4* restrict color_gradients,
                            global float* restrict position_gradients, global float* restrict sh_gradients, int with_pose,
                            global float* restrict pose_terms) {
   const int g = get_global_id(0);
@@ -17,7 +17,7 @@ kernel void shade_backward(int n, global const float* restrict positions, global
   const float3 ray = vload3(g, positions) - pose.scde;
   const float inverse_length = rsqrt(dot(ray, ray));
   const float3 direction = ray * inverse_length;
-  const float3 color = colors[g].xyz;
+  const float3 color = splats[SPLAT_VECTORS * g + 3].xyz;
   const float3 given = color_gradients[g].xyz;
   const float3 d_color = (float3)(color.x > 0.0f ? given.x : 0.0f, color.y > 0.0f ? given.y : 0.0f,
                                   color.z > 0.0f ? given.z : 0.0f);

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/compute/context.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "odosplat/compute/opencl.hpp"
@@ -98,6 +99,17 @@ void Context::finish() const { check(clFinish(impl_->queue), "clFinish", impl_->
 void Context::set_profiling(bool on) { impl_->profile = on; }
 bool Context::profiling() const { return impl_->profile; }
 std::vector<KernelTime> Context::kernel_times() const { return impl_->times; }
+std::vector<StageTime> Context::stage_times() const {
+  std::vector<StageTime> stages;
+  for (const KernelTime& time : impl_->times) {
+    auto found = std::find_if(stages.begin(), stages.end(), [&](const StageTime& s) { return s.stage == time.stage; });
+    if (found == stages.end()) found = stages.insert(stages.end(), StageTime{time.stage, 0.0, 0, {}});
+    found->milliseconds += time.milliseconds;
+    found->launches += time.launches;
+    found->kernels.push_back(time);
+  }
+  return stages;
+}
 void Context::reset_kernel_times() {
   impl_->times.clear();
   impl_->time_index.clear();

@@ -25,11 +25,19 @@ class DeviceError : public std::runtime_error {
 
 struct ContextImpl;
 
-/// Time of one kernel, summed over its launches.
+/// Time of one kernel, summed over its launches. Kernels of one stage do one step of the work together.
 struct KernelTime {
+  std::string stage;
   std::string name;
   double milliseconds = 0.0;
   long launches = 0;
+};
+
+struct StageTime {
+  std::string stage;
+  double milliseconds = 0.0;
+  long launches = 0;
+  std::vector<KernelTime> kernels;
 };
 
 /// One device with one in-order queue: commands run in the order given, so a caller never waits but to read.
@@ -48,6 +56,8 @@ class Context {
   void set_profiling(bool on);
   bool profiling() const;
   std::vector<KernelTime> kernel_times() const;
+  /// The same summed by stage, stages in order of first launch.
+  std::vector<StageTime> stage_times() const;
   void reset_kernel_times();
 
   ContextImpl& impl() const { return *impl_; }

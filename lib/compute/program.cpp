@@ -100,13 +100,13 @@ Program::Program(const Context& context, std::string label, const std::string& t
   cache.store(key, binary_of(program));
 }
 
-Kernel Program::kernel(const std::string& name) const {
+Kernel Program::kernel(const std::string& name, const std::string& stage) const {
   cl_int status = CL_SUCCESS;
   const std::shared_ptr<ContextImpl>& c = context_.shared_impl();
   cl_kernel kernel = clCreateKernel(static_cast<cl_program>(program_.get()), name.c_str(), &status);
   check(status, "clCreateKernel " + name + " of " + label_, c->info.name);
   std::shared_ptr<_cl_kernel> handle(kernel, [keep = program_](cl_kernel k) { clReleaseKernel(k); });
-  return {context_, std::move(handle), name};
+  return {context_, std::move(handle), name, stage.empty() ? name : stage};
 }
 
 void Kernel::set_bytes(unsigned index, const void* value, std::size_t size) {
@@ -147,8 +147,8 @@ void Kernel::launch(const Range& range, unsigned arguments) {
   clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof(start), &start, nullptr);
   clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof(end), &end, nullptr);
   clReleaseEvent(event);
-  const auto [entry, added] = c.time_index.try_emplace(name_, c.times.size());
-  if (added) c.times.push_back({name_, 0.0, 0});
+  const auto [entry, added] = c.time_index.try_emplace(stage_ + '\n' + name_, c.times.size());
+  if (added) c.times.push_back({stage_, name_, 0.0, 0});
   c.times[entry->second].milliseconds += static_cast<double>(end - start) * 1e-6;
   ++c.times[entry->second].launches;
 }

@@ -40,8 +40,8 @@ class Kernel {
 
  private:
   friend class Program;
-  Kernel(Context context, std::shared_ptr<_cl_kernel> handle, std::string name)
-      : context_(std::move(context)), handle_(std::move(handle)), name_(std::move(name)) {}
+  Kernel(Context context, std::shared_ptr<_cl_kernel> handle, std::string name, std::string stage)
+      : context_(std::move(context)), handle_(std::move(handle)), name_(std::move(name)), stage_(std::move(stage)) {}
 
   template <typename T>
   void set(unsigned index, const Buffer<T>& buffer) {
@@ -66,6 +66,7 @@ class Kernel {
   Context context_;
   std::shared_ptr<_cl_kernel> handle_;
   std::string name_;
+  std::string stage_;
 };
 
 /// Kernels built from files of the folder kernels/ for the context's device. `files` are joined in the order given
@@ -80,7 +81,8 @@ class Program {
   /// Builds text that is not in the folder (tests).
   static Program from_text(const Context& context, const std::string& text, const std::string& options = "");
 
-  Kernel kernel(const std::string& name) const;
+  /// stage: the step of the work that this kernel's time counts for (KernelTime); empty: one of its own.
+  Kernel kernel(const std::string& name, const std::string& stage = "") const;
 
  private:
   Program(const Context& context, std::string label, const std::string& text, const std::string& options);

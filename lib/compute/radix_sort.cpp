@@ -24,11 +24,12 @@ RadixSort::RadixSort(const Context& context, Layout layout)
     : context_(context),
       groups_(chosen_layout(layout, context) == Layout::groups),
       program_(context, files_of(groups_)),
-      histogram_(program_.kernel(groups_ ? "group_radix_histogram" : "radix_histogram")),
-      scatter_(program_.kernel(groups_ ? "group_radix_scatter" : "radix_scatter")),
+      histogram_(program_.kernel(groups_ ? "group_radix_histogram" : "radix_histogram", "sort")),
+      scatter_(program_.kernel(groups_ ? "group_radix_scatter" : "radix_scatter", "sort")),
       scan_(context, layout),
       totals_(context, RADIX_SIZE) {
-  if (!groups_) offsets_ = {program_.kernel("radix_chunk_offsets"), program_.kernel("radix_digit_offsets")};
+  if (!groups_)
+    offsets_ = {program_.kernel("radix_chunk_offsets", "sort"), program_.kernel("radix_digit_offsets", "sort")};
 }
 
 void RadixSort::sort(const Buffer<std::uint32_t>& keys, std::size_t n, Buffer<std::uint32_t>& order, int bits) {

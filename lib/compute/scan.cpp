@@ -21,9 +21,9 @@ Scan::Scan(const Context& context, Layout layout)
     : context_(context),
       groups_(chosen_layout(layout, context) == Layout::groups),
       program_(context, {groups_ ? "group_scan.cl" : "scan.cl"}),
-      sums_kernel_(program_.kernel(groups_ ? "group_scan_sums" : "scan_chunk_sums")),
-      starts_kernel_(program_.kernel(groups_ ? "group_scan_starts" : "scan_sums")),
-      write_kernel_(program_.kernel(groups_ ? "group_scan_write" : "scan_write")) {}
+      sums_kernel_(program_.kernel(groups_ ? "group_scan_sums" : "scan_chunk_sums", "scan")),
+      starts_kernel_(program_.kernel(groups_ ? "group_scan_starts" : "scan_sums", "scan")),
+      write_kernel_(program_.kernel(groups_ ? "group_scan_write" : "scan_write", "scan")) {}
 
 void Scan::exclusive(const Buffer<std::uint32_t>& counts, std::size_t n, Buffer<std::uint32_t>& out) {
   const std::uint32_t chunk = groups_ ? SCAN_BLOCK : chunk_size;

@@ -2,7 +2,9 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <opencv2/core/types.hpp>
 #include <string>
+#include <vector>
 
 #include "odosplat/core/camera.hpp"
 #include "odosplat/core/image.hpp"
@@ -34,6 +36,13 @@ class MapView {
   /// Renders the map seen from T_world_camera. A map with nothing in view gives images of zeros, not an error.
   /// The same call gives the same bits. Blocks. Not thread safe. Throws on a broken device only.
   virtual ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) = 0;
+
+  /// The same at some pixels only (x: column, y: row), for consumers that use a few thousand of them: images of one
+  /// row, pixels.size() wide, in the order given; pixels may repeat. Depth, alpha and colour are those of render. sigma
+  /// may leave out what render takes from neighbouring pixels. This one renders everything and picks; views that can do
+  /// with less work override it. Throws InputError for a pixel outside the camera's image.
+  virtual ViewImages render_pixels(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request,
+                                   const std::vector<cv::Point>& pixels);
 
   /// A word for logs and reports: "gaussian", "interpolation", ...
   virtual std::string name() const = 0;

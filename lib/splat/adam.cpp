@@ -24,8 +24,8 @@ Adam::Adam(const compute::Context& context, const AdamOptions& options, int stri
     : options_((options.check(), options)),
       context_(context),
       program_(context, {"adam.cl"}),
-      step_kernel_(program_.kernel("adam_step")),
-      limit_kernel_(program_.kernel("limit_above")),
+      step_kernel_(program_.kernel("adam_step", "adam")),
+      limit_kernel_(program_.kernel("limit_above", "adam")),
       stride_(stride) {
   require(stride >= 1, "stride", "at least 1");
   require(head >= 0 && head <= stride, "head", "in 0..stride");

@@ -11,8 +11,8 @@ namespace odosplat {
 
 namespace {
 
-cv::Mat1f download(const compute::Buffer<float>& buffer, const Camera& camera) {
-  cv::Mat1f image(camera.height, camera.width);
+cv::Mat1f download(const compute::Buffer<float>& buffer, int height, int width) {
+  cv::Mat1f image(height, width);
   buffer.download(image.ptr<float>(), image.total());
   return image;
 }
@@ -40,23 +40,39 @@ GaussianView::GaussianView(const compute::Context& context, const Gaussians& gau
   gaussians_.upload(context, gaussians);
 }
 
-ViewImages GaussianView::render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) {
+RenderRequest GaussianView::raster_request(const ViewRequest& request) const {
   RenderRequest wanted;
   wanted.color = request.color;
   wanted.depth_mode = options_.depth_mode;
   wanted.sigma = options_.depth_mode == DepthMode::expected;
   wanted.sh_degree = gaussians_.sh_degree;
+  return wanted;
+}
+
+ColorImage GaussianView::download_color(int height, int width) {
+  const auto plane = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  planes_.resize(3 * plane);
+  output_.color.download(planes_.data(), planes_.size());
+  ColorImage color(height, width);
+  cv::Vec3f* pixels = color[0];
+  for (std::size_t i = 0; i < plane; ++i)
+    for (std::size_t c = 0; c < 3; ++c) pixels[i][static_cast<int>(c)] = std::clamp(planes_[c * plane + i], 0.0F, 1.0F);
+  return color;
+}
+
+ViewImages GaussianView::render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) {
+  const RenderRequest wanted = raster_request(request);
   rasterizer_.forward(gaussians_, camera, T_world_camera, wanted, output_);
 
   ViewImages images;
-  images.depth = download(output_.depth, camera);
-  const cv::Mat1f alpha = download(output_.alpha, camera);
+  images.depth = download(output_.depth, camera.height, camera.width);
+  const cv::Mat1f alpha = download(output_.alpha, camera.height, camera.width);
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x)
       if (!(alpha(y, x) >= options_.min_alpha)) images.depth(y, x) = 0.0F;
 
-  const cv::Mat1f spread =
-      wanted.sigma ? download(output_.sigma, camera) : cv::Mat1f(camera.height, camera.width, 0.0F);
+  const cv::Mat1f spread = wanted.sigma ? download(output_.sigma, camera.height, camera.width)
+                                        : cv::Mat1f(camera.height, camera.width, 0.0F);
   images.sigma = cv::Mat1f(camera.height, camera.width, 0.0F);
   for (int y = 0; y < camera.height; ++y) {
     const float* row = images.depth[y];
@@ -73,16 +89,28 @@ ViewImages GaussianView::render(const Camera& camera, const SE3& T_world_camera,
     }
   }
 
-  if (request.color) {
-    const auto plane = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
-    planes_.resize(3 * plane);
-    output_.color.download(planes_.data(), planes_.size());
-    images.color = ColorImage(camera.height, camera.width);
-    cv::Vec3f* pixels = images.color[0];
-    for (std::size_t i = 0; i < plane; ++i)
-      for (std::size_t c = 0; c < 3; ++c)
-        pixels[i][static_cast<int>(c)] = std::clamp(planes_[c * plane + i], 0.0F, 1.0F);
+  if (request.color) images.color = download_color(camera.height, camera.width);
+  if (request.alpha) images.alpha = alpha;
+  return images;
+}
+
+ViewImages GaussianView::render_pixels(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request,
+                                       const std::vector<cv::Point>& pixels) {
+  const RenderRequest wanted = raster_request(request);
+  rasterizer_.forward_pixels(gaussians_, camera, T_world_camera, wanted, pixels, output_);
+  if (pixels.empty()) return {};
+  const int count = output_.width;
+  ViewImages images;
+  images.depth = download(output_.depth, 1, count);
+  images.sigma = cv::Mat1f(1, count, 0.0F);
+  const cv::Mat1f alpha = download(output_.alpha, 1, count);
+  const cv::Mat1f spread = wanted.sigma ? download(output_.sigma, 1, count) : cv::Mat1f(1, count, 0.0F);
+  for (int i = 0; i < count; ++i) {
+    float& depth = images.depth(0, i);
+    if (!(alpha(0, i) >= options_.min_alpha)) depth = 0.0F;
+    if (depth > 0.0F) images.sigma(0, i) = std::hypot(spread(0, i), options_.sigma_floor * depth);
   }
+  if (request.color) images.color = download_color(1, count);
   if (request.alpha) images.alpha = alpha;
   return images;
 }

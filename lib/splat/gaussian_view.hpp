@@ -35,9 +35,15 @@ class GaussianView : public MapView {
   GaussianView(const compute::Context& context, const Gaussians& gaussians, const GaussianViewOptions& options = {});
 
   ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override;
+  /// Composites those pixels only (Rasterizer::forward_pixels). sigma is without the term of the slope.
+  ViewImages render_pixels(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request,
+                           const std::vector<cv::Point>& pixels) override;
   std::string name() const override { return "gaussian"; }
 
  private:
+  RenderRequest raster_request(const ViewRequest& request) const;
+  ColorImage download_color(int height, int width);
+
   GaussianViewOptions options_;
   DeviceGaussians gaussians_;
   Rasterizer rasterizer_;

@@ -28,11 +28,11 @@ ImageLoss::ImageLoss(const compute::Context& context, const LossOptions& options
     : options_((options.check(), options)),
       context_(context),
       program_(context, {"ssim.cl", "loss.cl"}),
-      moments_vertical_(program_.kernel("ssim_moments_vertical")),
-      ssim_horizontal_(program_.kernel("ssim_horizontal")),
-      spread_vertical_(program_.kernel("ssim_spread_vertical")),
-      gradient_(program_.kernel("loss_gradient")),
-      rows_kernel_(program_.kernel("loss_rows")) {}
+      moments_vertical_(program_.kernel("ssim_moments_vertical", "loss")),
+      ssim_horizontal_(program_.kernel("ssim_horizontal", "loss")),
+      spread_vertical_(program_.kernel("ssim_spread_vertical", "loss")),
+      gradient_(program_.kernel("loss_gradient", "loss")),
+      rows_kernel_(program_.kernel("loss_rows", "loss")) {}
 
 void ImageLoss::prepare(int width, int height) {
   if (width == width_ && height == height_) return;

@@ -25,35 +25,33 @@ RasterPairs::RasterPairs(const compute::Context& context, const compute::Program
       long_chunks_(long_chunks),
       scan_(context),
       sort_(context),
-      count_tiles_(program.kernel("count_tiles")),
-      emit_pairs_(program.kernel("emit_pairs")),
-      bin_histogram_(program.kernel("bin_histogram")),
-      bin_totals_(program.kernel("bin_totals")),
-      bin_cursors_(program.kernel("bin_cursors")),
-      bin_scatter_(program.kernel("bin_scatter")),
-      gather_counts_(program.kernel("gather_counts")),
-      order_pairs_(program.kernel("order_pairs")),
-      gather_pairs_(program.kernel("gather_pairs")) {}
+      emit_pairs_(program.kernel("emit_pairs", "bin")),
+      bin_histogram_(program.kernel("bin_histogram", "bin")),
+      bin_totals_(program.kernel("bin_totals", "bin")),
+      bin_cursors_(program.kernel("bin_cursors", "bin")),
+      bin_scatter_(program.kernel("bin_scatter", "bin")),
+      gather_counts_(program.kernel("gather_counts", "bin")),
+      order_pairs_(program.kernel("order_pairs", "bin")),
+      gather_pairs_(program.kernel("gather_pairs", "bin")) {}
 
-void RasterPairs::build(std::size_t n, const compute::Buffer<float>& boxes,
-                        const compute::Buffer<std::uint32_t>& depth_keys, const std::array<std::int32_t, 4>& grid) {
+void RasterPairs::build(std::size_t n, std::size_t lanes, const compute::Buffer<float>& boxes,
+                        const compute::Buffer<std::uint32_t>& depth_keys, const compute::Buffer<std::uint32_t>& counts,
+                        const std::array<std::int32_t, 4>& grid, const WantedTiles& wanted) {
   const auto count = static_cast<std::int32_t>(n);
   const std::size_t tiles = static_cast<std::size_t>(grid[2]) * static_cast<std::size_t>(grid[3]);
-  counts_.resize(context_, n);
   offsets_.resize(context_, n + 1);
   tile_start_.resize(context_, tiles + 1);
   std::uint32_t total = 0;
   if (n > 0) {
-    count_tiles_(Range::linear(n, ITEM_GROUP), count, boxes, depth_keys, grid, counts_);
     if (n * tiles >= max_pairs) {
       // Only here can the 32-bit sum of the scan wrap.
-      const std::vector<std::uint32_t> all = counts_.download();
+      const std::vector<std::uint32_t> all = counts.download();
       if (std::accumulate(all.begin(), all.end(), std::size_t{0}) >= max_pairs) {
         throw compute::DeviceError("more than 2^31 pairs of Gaussian and tile: " + std::to_string(n) +
                                    " Gaussians are too large for this image");
       }
     }
-    scan_.exclusive(counts_, n, offsets_);
+    scan_.exclusive(counts, n, offsets_);
     sort_.sort(depth_keys, n, order_);
     offsets_.download(&total, 1, n);
   }
@@ -65,11 +63,12 @@ void RasterPairs::build(std::size_t n, const compute::Buffer<float>& boxes,
     tile_start_.fill_zero();
     return;
   }
-  emit_pairs_(Range::linear(n, ITEM_GROUP), count, boxes, offsets_, grid, slot_tile_);
+  emit_pairs_(Range::linear((n + lanes - 1) / lanes, lanes > 1 ? 1 : ITEM_GROUP), count, boxes, offsets_, grid,
+              wanted.sparse, wanted.blocks, slot_tile_);
   if (long_chunks_) {
     sort_in_chunks(n, tiles);
   } else {
-    sort_by_radix(n, tiles);
+    sort_by_radix(n, tiles, counts);
   }
 }
 
@@ -91,12 +90,12 @@ void RasterPairs::sort_in_chunks(std::size_t n, std::size_t tiles) {
                slot_);
 }
 
-void RasterPairs::sort_by_radix(std::size_t n, std::size_t tiles) {
+void RasterPairs::sort_by_radix(std::size_t n, std::size_t tiles, const compute::Buffer<std::uint32_t>& counts) {
   const auto n_arg = static_cast<std::int32_t>(n);
   depth_counts_.resize(context_, n);
   depth_tile_.resize(context_, pairs_);
   depth_pair_.resize(context_, 2 * pairs_);
-  gather_counts_(Range::linear(n, ITEM_GROUP), n_arg, order_, counts_, depth_counts_);
+  gather_counts_(Range::linear(n, ITEM_GROUP), n_arg, order_, counts, depth_counts_);
   scan_.exclusive(depth_counts_, n, depth_offsets_);
   order_pairs_(Range::linear(n, ITEM_GROUP), n_arg, order_, offsets_, depth_offsets_, slot_tile_, depth_tile_,
                depth_pair_);

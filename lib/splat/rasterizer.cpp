@@ -13,7 +13,9 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/kernels/constants.h"
+#include "odosplat/splat/pixel_selection.hpp"
 #include "odosplat/splat/raster_pairs.hpp"
+#include "odosplat/splat/viewpoint.hpp"
 
 namespace odosplat {
 namespace {
@@ -23,10 +25,9 @@ using compute::Kernel;
 using compute::Program;
 using compute::Range;
 
-// Pixels of a row that the tile shell handles at once: on AVX-512, 8 cost 20 to 30 % more.
-constexpr int forward_width = 16;
-constexpr int backward_width = 16;
-constexpr int splat_floats = 12;  // SPLAT_VECTORS of four
+constexpr int block_pixels = 16;  // that the tile shell handles at once, as a vector
+constexpr std::size_t cpu_lanes = 8;
+constexpr int splat_floats = 16;  // SPLAT_VECTORS of four
 constexpr int box_floats = 8;
 constexpr std::size_t max_pixels = std::size_t{1} << 28;
 static_assert(RasterizerOptions{}.dilation == DILATION);
@@ -50,40 +51,6 @@ int mode_number(bool depth, DepthMode mode) {
   return mode == DepthMode::median ? 2 : 3;
 }
 
-// What of the camera and the pose the kernels take.
-struct Viewpoint {
-  std::array<float, 16> pose{};
-  std::array<float, 8> lens{};
-  std::array<std::int32_t, 4> grid{};  // width, height, tiles a row, rows of tiles
-  std::size_t tiles = 0;
-};
-
-Viewpoint make_viewpoint(const Camera& camera, const SE3& T_world_camera) {
-  Viewpoint view;
-  const SE3 T_camera_world = T_world_camera.inverse();
-  const Eigen::Matrix3d R = T_camera_world.rotation_matrix();
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) view.pose[static_cast<std::size_t>(3 * r + c)] = static_cast<float>(R(r, c));
-    view.pose[static_cast<std::size_t>(9 + r)] = static_cast<float>(T_camera_world.translation()[r]);
-    view.pose[static_cast<std::size_t>(12 + r)] = static_cast<float>(T_world_camera.translation()[r]);
-  }
-  const double margin_x = static_cast<double>(JACOBIAN_MARGIN) * 0.5 * camera.width / camera.fx;
-  const double margin_y = static_cast<double>(JACOBIAN_MARGIN) * 0.5 * camera.height / camera.fy;
-  view.lens = {static_cast<float>(camera.fx),
-               static_cast<float>(camera.fy),
-               static_cast<float>(camera.cx),
-               static_cast<float>(camera.cy),
-               static_cast<float>((-0.5 - camera.cx) / camera.fx - margin_x),
-               static_cast<float>((camera.width - 0.5 - camera.cx) / camera.fx + margin_x),
-               static_cast<float>((-0.5 - camera.cy) / camera.fy - margin_y),
-               static_cast<float>((camera.height - 0.5 - camera.cy) / camera.fy + margin_y)};
-  const int columns = (camera.width + TILE_WIDTH - 1) / TILE_WIDTH;
-  const int rows = (camera.height + TILE_HEIGHT - 1) / TILE_HEIGHT;
-  view.grid = {camera.width, camera.height, columns, rows};
-  view.tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  return view;
-}
-
 }  // namespace
 
 void RasterizerOptions::check() const {
@@ -95,20 +62,34 @@ struct Rasterizer::Impl {
       : context(c),
         options(o),
         shell(chosen_shell(o.shell, c)),
-        program(c, {"raster_common.cl", "projection.cl", "project.cl", "tiles.cl"}),
-        project(program.kernel("project")),
-        pairs(c, program, shell == Shell::tile && c.is_cpu()) {}
+        lanes(shell == Shell::tile ? cpu_lanes : 1),
+        program(c, {"raster_common.cl", "projection.cl", "tiles.cl", "project.cl"},
+                define("GW", static_cast<int>(lanes))),
+        project(program.kernel("project", "project")),
+        pairs(c, program, shell == Shell::tile && c.is_cpu()),
+        everything{0, Buffer<std::uint32_t>(c, 0), {0, Buffer<std::uint32_t>(c, 0)}} {}
 
   compute::Context context;
   RasterizerOptions options;
   Shell shell;
+  std::size_t lanes;  // Gaussians that an item of the projection takes
   Program program;
   Kernel project;
   RasterPairs pairs;
   std::map<std::string, Kernel> kernels;  // built when first needed, by name and build options
 
-  Buffer<float> splats, boxes, colors, color_gradients, screen_gradients, slots, pose_terms, pose_sums;
-  Buffer<std::uint32_t> depth_keys;
+  Buffer<float> splats, boxes, color_gradients, screen_gradients, slots, pose_terms, pose_sums;
+  Buffer<std::uint32_t> depth_keys, counts;
+  std::unique_ptr<PixelSelection> selection;  // made when first needed
+  RenderOutput selected_images;               // whole images, of which only blocks with wanted pixels are made
+
+  // Which Gaussians to draw, all or those listed, and where.
+  struct Part {
+    std::int32_t select;
+    Buffer<std::uint32_t> gaussians;
+    WantedTiles tiles;
+  };
+  Part everything;
 
   // The last forward.
   bool rendered = false;
@@ -119,41 +100,47 @@ struct Rasterizer::Impl {
   bool ray_plane = false;
   int sh_degree = 0;
 
-  Kernel& kernel(const std::string& name, const std::vector<std::string>& files,
+  Kernel& kernel(const std::string& name, const std::vector<std::string>& files, const std::string& stage,
                  const std::string& build_options = "") {
     const std::string key = name + build_options;
     auto found = kernels.find(key);
     if (found == kernels.end()) {
-      found = kernels.emplace(key, Program(context, files, build_options).kernel(name)).first;
+      found = kernels.emplace(key, Program(context, files, build_options).kernel(name, stage)).first;
     }
     return found->second;
   }
-  std::string shell_options(int width) const {
-    return shell == Shell::tile ? define("SHELL_TILE", 1) + define("VW", width) : define("SHELL_TILE", 0);
+  std::string shell_options() const {
+    return shell == Shell::tile ? define("SHELL_TILE", 1) + define("VW", block_pixels) : define("SHELL_TILE", 0);
   }
-  void forward(const DeviceGaussians& gaussians, RenderOutput& out);
+  // One item `lanes` Gaussians.
+  Range groups() const { return Range::linear((count + lanes - 1) / lanes, lanes > 1 ? 1 : ITEM_GROUP); }
+  void prepare(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
+               const RenderRequest& wanted);
+  void forward(const DeviceGaussians& gaussians, const Part& part, RenderOutput& out);
+  void forward_pixels(const DeviceGaussians& gaussians, const std::vector<cv::Point>& pixels, RenderOutput& out);
   void backward(const DeviceGaussians& gaussians, const OutputGradients& given, DeviceGaussians& gradients,
                 bool with_pose);
   Vector6d pose_gradient();
 };
 
-void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, RenderOutput& out) {
+void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, const Part& part, RenderOutput& out) {
   const auto n = static_cast<std::int32_t>(count);
   const Range items = Range::linear(count, ITEM_GROUP);
   splats.resize(context, splat_floats * count);
-  boxes.resize(context, box_floats * count);
+  boxes.resize(context, box_floats * (count + lanes));
   depth_keys.resize(context, count);
-  colors.resize(context, request.color ? 4 * count : 0);
-  project(items, n, gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
-          view.lens, view.grid, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane}, splats,
-          boxes, depth_keys);
-  pairs.build(count, boxes, depth_keys, view.grid);
+  counts.resize(context, count);
+  project(groups(), n, part.select, part.gaussians, gaussians.positions, gaussians.log_scales, gaussians.rotations,
+          gaussians.opacity_logits, view.pose, view.lens, view.grid, options.dilation,
+          std::int32_t{options.compensated}, std::int32_t{ray_plane}, part.tiles.sparse, part.tiles.blocks, splats,
+          boxes, depth_keys, counts);
+  pairs.build(count, lanes, boxes, depth_keys, counts, view.grid, part.tiles);
   if (request.color) {
-    kernel("shade", {"sh.cl", "shade.cl"}, define("SH_DEGREE", sh_degree))(items, n, gaussians.positions, gaussians.sh,
-                                                                           std::int32_t{gaussians.coefficients()},
-                                                                           view.pose, pairs.counts(), colors);
+    kernel("shade", {"raster_common.cl", "sh.cl", "shade.cl"}, "shade", define("SH_DEGREE", sh_degree))(
+        items, n, part.select, part.gaussians, gaussians.positions, gaussians.sh,
+        std::int32_t{gaussians.coefficients()}, view.pose, counts, splats);
   }
-  const std::size_t pixels = static_cast<std::size_t>(view.grid[0]) * static_cast<std::size_t>(view.grid[1]);
+  const std::size_t pixels = view.pixels;
   out.width = view.grid[0];
   out.height = view.grid[1];
   out.color.resize(context, request.color ? 3 * pixels : 0);
@@ -161,15 +148,29 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, RenderOutput& o
   out.alpha.resize(context, pixels);
   out.sigma.resize(context, request.sigma ? pixels : 0);
   Kernel& composite =
-      kernel("composite", {"raster_common.cl", "composite.cl"},
-             shell_options(forward_width) + define("WITH_COLOR", request.color) + define("WITH_SIGMA", request.sigma) +
+      kernel("composite", {"raster_common.cl", "composite.cl"}, "composite",
+             shell_options() + define("WITH_COLOR", request.color) + define("WITH_SIGMA", request.sigma) +
                  define("DEPTH_MODE", mode_number(request.depth, request.depth_mode)));
   const Range range = shell == Shell::tile
                           ? Range::linear(view.tiles, 1)
                           : Range::grid(static_cast<std::size_t>(view.grid[2]) * TILE_WIDTH,
                                         static_cast<std::size_t>(view.grid[3]) * TILE_HEIGHT, TILE_WIDTH, TILE_HEIGHT);
-  composite(range, pairs.tile_start(), pairs.list(), splats, colors, view.grid, out.color, out.depth, out.alpha,
-            out.sigma);
+  composite(range, pairs.tile_start(), pairs.list(), splats, view.grid, out.color, out.depth, out.alpha, out.sigma,
+            part.tiles.sparse, part.tiles.blocks);
+}
+
+void Rasterizer::Impl::forward_pixels(const DeviceGaussians& gaussians, const std::vector<cv::Point>& pixels,
+                                      RenderOutput& out) {
+  if (!selection) selection = std::make_unique<PixelSelection>(context, lanes);
+  selection->select(gaussians, view, options.dilation, pixels);
+  count = selection->size();
+  forward(gaussians, {1, selection->gaussians(), selection->tiles()}, selected_images);
+  out.width = static_cast<int>(pixels.size());
+  out.height = 1;
+  selection->pick(selected_images.color, out.color);
+  selection->pick(selected_images.depth, out.depth);
+  selection->pick(selected_images.alpha, out.alpha);
+  selection->pick(selected_images.sigma, out.sigma);
 }
 
 void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGradients& given,
@@ -186,26 +187,27 @@ void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGr
   const Buffer<float> none(context, 0);
   const auto image = [&](const Buffer<float>& b) -> const Buffer<float>& { return b.handle() == nullptr ? none : b; };
 
-  Kernel& composite_backward = kernel("composite_backward", {"raster_common.cl", "composite_backward.cl"},
-                                      shell_options(backward_width) + images);
+  Kernel& composite_backward =
+      kernel("composite_backward", {"raster_common.cl", "composite_backward.cl"}, "backward", shell_options() + images);
   const std::size_t group = shell == Shell::tile ? 1 : PIXEL_BATCH;
   if (pairs.size() > 0) {
     composite_backward(Range::linear(view.tiles * group, group), pairs.tile_start(), pairs.list(), pairs.slot(), splats,
-                       colors, view.grid, std::int32_t{!given.alpha.empty()}, image(output.color), image(output.depth),
+                       view.grid, std::int32_t{!given.alpha.empty()}, image(output.color), image(output.depth),
                        output.alpha, image(given.color), image(given.depth), image(given.alpha), slots);
   }
   const auto n = static_cast<std::int32_t>(count);
   const Range items = Range::linear(count, ITEM_GROUP);
   const std::vector<std::string> files = {"raster_common.cl", "projection.cl", "project_backward.cl"};
-  kernel("project_backward", files, images)(
-      items, n, gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
-      view.lens, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane}, pairs.counts(),
-      pairs.offsets(), slots, gradients.positions, gradients.log_scales, gradients.rotations, gradients.opacity_logits,
-      color_gradients, screen_gradients, std::int32_t{with_pose}, pose_terms);
+  kernel("project_backward", files, "backward", images + define("GW", static_cast<int>(lanes)))(
+      groups(), n, gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
+      view.lens, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane}, counts, pairs.offsets(),
+      slots, gradients.positions, gradients.log_scales, gradients.rotations, gradients.opacity_logits, color_gradients,
+      screen_gradients, std::int32_t{with_pose}, pose_terms);
   if (color) {
-    kernel("shade_backward", {"sh.cl", "shade_backward.cl"}, define("SH_DEGREE", sh_degree))(
-        items, n, gaussians.positions, gaussians.sh, std::int32_t{gaussians.coefficients()}, view.pose, pairs.counts(),
-        colors, color_gradients, gradients.positions, gradients.sh, std::int32_t{with_pose}, pose_terms);
+    kernel("shade_backward", {"raster_common.cl", "sh.cl", "shade_backward.cl"}, "backward",
+           define("SH_DEGREE", sh_degree))(
+        items, n, gaussians.positions, gaussians.sh, std::int32_t{gaussians.coefficients()}, view.pose, counts, splats,
+        color_gradients, gradients.positions, gradients.sh, std::int32_t{with_pose}, pose_terms);
   } else {
     gradients.sh.fill_zero();
   }
@@ -216,8 +218,8 @@ Vector6d Rasterizer::Impl::pose_gradient() {
   if (count == 0) return sum;
   const std::size_t chunks = (count + POSE_CHUNK - 1) / POSE_CHUNK;
   pose_sums.resize(context, 6 * chunks);
-  kernel("sum_pose_terms", {"pose_sum.cl"})(Range::linear(chunks, 1), static_cast<std::int32_t>(count), pose_terms,
-                                            pose_sums);
+  kernel("sum_pose_terms", {"pose_sum.cl"}, "backward")(Range::linear(chunks, 1), static_cast<std::int32_t>(count),
+                                                        pose_terms, pose_sums);
   const std::vector<float> sums = pose_sums.download();
   for (std::size_t i = 0; i < sums.size(); ++i) sum[static_cast<Eigen::Index>(i % 6)] += static_cast<double>(sums[i]);
   return sum;
@@ -231,26 +233,38 @@ Rasterizer::~Rasterizer() = default;
 Rasterizer::Rasterizer(Rasterizer&&) noexcept = default;
 Rasterizer& Rasterizer::operator=(Rasterizer&&) noexcept = default;
 
-void Rasterizer::forward(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
-                         const RenderRequest& request, RenderOutput& output) {
+void Rasterizer::Impl::prepare(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
+                               const RenderRequest& wanted) {
   camera.check();
   require(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height) <= max_pixels, "image size",
           "at most 2^28 pixels");
   require(T_world_camera.is_finite(), "camera pose", "finite");
-  require(!request.sigma || (request.depth && request.depth_mode == DepthMode::expected), "sigma",
+  require(!wanted.sigma || (wanted.depth && wanted.depth_mode == DepthMode::expected), "sigma",
           "asked for together with expected depth");
-  require(request.sh_degree >= 0, "sh_degree", "0 or more");
-  Impl& m = *impl_;
-  m.rendered = false;
-  m.count = gaussians.size();
-  m.view = make_viewpoint(camera, T_world_camera);
-  m.request = request;
-  m.sh_degree = std::min(request.sh_degree, gaussians.sh_degree);
-  m.ray_plane = m.options.depth_kind == DepthKind::ray_plane ||
-                (m.options.depth_kind == DepthKind::automatic && request.depth_mode != DepthMode::blended);
-  m.forward(gaussians, output);
-  m.output = output;
-  m.rendered = true;
+  require(wanted.sh_degree >= 0, "sh_degree", "0 or more");
+  rendered = false;
+  count = gaussians.size();
+  view = make_viewpoint(camera, T_world_camera);
+  request = wanted;
+  sh_degree = std::min(wanted.sh_degree, gaussians.sh_degree);
+  ray_plane = options.depth_kind == DepthKind::ray_plane ||
+              (options.depth_kind == DepthKind::automatic && wanted.depth_mode != DepthMode::blended);
+}
+
+void Rasterizer::forward(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
+                         const RenderRequest& request, RenderOutput& output) {
+  impl_->prepare(gaussians, camera, T_world_camera, request);
+  impl_->forward(gaussians, impl_->everything, output);
+  impl_->output = output;
+  impl_->rendered = true;
+}
+
+void Rasterizer::forward_pixels(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
+                                const RenderRequest& request, const std::vector<cv::Point>& pixels,
+                                RenderOutput& output) {
+  require(pixels.size() <= max_pixels, "pixels", "at most 2^28");
+  impl_->prepare(gaussians, camera, T_world_camera, request);
+  impl_->forward_pixels(gaussians, pixels, output);
 }
 
 void Rasterizer::backward(const DeviceGaussians& gaussians, const OutputGradients& output_gradients,
@@ -270,7 +284,7 @@ void Rasterizer::backward(const DeviceGaussians& gaussians, const OutputGradient
 }
 
 const Buffer<float>& Rasterizer::screen_gradients() const { return impl_->screen_gradients; }
-const Buffer<std::uint32_t>& Rasterizer::tile_counts() const { return impl_->pairs.counts(); }
+const Buffer<std::uint32_t>& Rasterizer::tile_counts() const { return impl_->counts; }
 std::size_t Rasterizer::pairs() const { return impl_->pairs.size(); }
 Shell Rasterizer::shell() const { return impl_->shell; }
 const RasterizerOptions& Rasterizer::options() const { return impl_->options; }

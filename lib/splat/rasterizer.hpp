@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <opencv2/core/types.hpp>
+#include <vector>
 
 #include "odosplat/compute/context.hpp"
 #include "odosplat/core/camera.hpp"
@@ -95,6 +97,14 @@ class Rasterizer {
   void forward(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
                const RenderRequest& request, RenderOutput& output);
 
+  /// The same at some pixels only, at a fraction of the cost: Gaussians that touch none of them are not projected,
+  /// tiles without any are skipped, and of the others only blocks of 4 x 4 pixels with one are composited (on the pixel
+  /// shell the whole tile). `output` has a value a pixel, in the order given (x: column, y: row): width =
+  /// pixels.size(), height = 1. The values are those of forward, to the bit. Pixels may repeat; none: empty images. No
+  /// backward after it. Waits twice. Errors: as forward; InputError for a pixel outside the image.
+  void forward_pixels(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
+                      const RenderRequest& request, const std::vector<cv::Point>& pixels, RenderOutput& output);
+
   /// Gradients of the last forward, with the same Gaussians. `gradients` takes the shape of `gaussians`; every value is
   /// overwritten (zero for Gaussians not in view, and for SH above the degree rendered).
   /// A gradient of an image that forward did not make is an InputError. sigma is not differentiated; of median depth
@@ -105,9 +115,10 @@ class Rasterizer {
 
   /// After backward: dL/d(u, v) of each projected centre, [N x 2] per px (for densification).
   const compute::Buffer<float>& screen_gradients() const;
-  /// After forward: number of tiles each Gaussian touches, [N]; 0: not in view.
+  /// After forward: number of tiles each Gaussian touches, [N]; 0: not in view. (After forward_pixels: each of those
+  /// kept.)
   const compute::Buffer<std::uint32_t>& tile_counts() const;
-  /// After forward: (Gaussian, tile) pairs.
+  /// After forward or forward_pixels: (Gaussian, tile) pairs.
   std::size_t pairs() const;
   /// The shell in use, never automatic.
   Shell shell() const;

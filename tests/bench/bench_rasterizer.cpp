@@ -1,104 +1,221 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Rasteriser on the scene of the measured notes: uniform centres on the screen, depths 1..5 m, opacity 0.5, round
-// Gaussians of 2 px standard deviation, so that cost depends on the count and the size of the image alone.
+// The rasteriser and a step of training, against the yardstick. Names: WORK/GAUSSIANS/WIDTHxHEIGHT; with a map of one's
+// own (bench_scene.hpp) also WORK/map/WIDTHxHEIGHT. Real time is what a user waits; process CPU time divided by the
+// cores is what a busy machine cannot distort. Counters: pairs of Gaussian and tile, and `x_ms`, the time of stage x.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
 
+#include "bench_report.hpp"
+#include "bench_scene.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/splat/rasterizer.hpp"
+#include "odosplat/splat/trainer.hpp"
+#include "yardstick.hpp"
 
 namespace odosplat {
 namespace {
 
-Camera camera_of(const benchmark::State& state) {
-  const auto width = static_cast<int>(state.range(1));
-  const auto height = static_cast<int>(state.range(2));
-  const double f = 525.0 * width / 640.0;
-  return {width, height, f, f, 0.5 * width - 0.5, 0.5 * height - 0.5};
+constexpr int profiled_runs = 5;
+bool failed = false;
+
+void fail(benchmark::State& state, const std::string& why) {
+  failed = true;
+  state.SkipWithError(why.c_str());
 }
 
-Gaussians random_scene(std::size_t n, const Camera& camera) {
-  Random random(1);
-  Gaussians g;
-  g.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double z = random.uniform(1.0, 5.0);
-    const Eigen::Vector3d p =
-        z * camera.ray(random.uniform(-0.5, camera.width - 0.5), random.uniform(-0.5, camera.height - 0.5));
-    for (int k = 0; k < 3; ++k) {
-      g.positions[3 * i + static_cast<std::size_t>(k)] = static_cast<float>(p[k]);
-      g.log_scales[3 * i + static_cast<std::size_t>(k)] = static_cast<float>(std::log(2.0 * z / camera.fx));
-      g.sh[3 * i + static_cast<std::size_t>(k)] = static_cast<float>(random.uniform(-1.0, 1.0));
-    }
-    g.rotations[4 * i] = 1.0F;
-    g.opacity_logits[i] = 0.0F;
-  }
-  return g;
+RenderRequest color_only() {
+  RenderRequest request;
+  request.color = true;
+  request.depth = false;
+  return request;
 }
 
 struct Bench {
-  explicit Bench(const benchmark::State& state) : camera(camera_of(state)), rasterizer(context) {
-    gaussians.upload(context, random_scene(static_cast<std::size_t>(state.range(0)), camera));
-  }
+  explicit Bench(const BenchScene& s) : scene(s), rasterizer(context) { gaussians.upload(context, scene.gaussians); }
   void forward(const RenderRequest& request) {
-    rasterizer.forward(gaussians, camera, SE3(), request, output);
+    rasterizer.forward(gaussians, scene.camera, scene.T_world_camera, request, output);
+  }
+  /// Times `work`, then its stages in runs of their own: timing every kernel costs a wait each.
+  void run(benchmark::State& state, const std::function<void()>& work) {
+    work();
     context.finish();
+    for (auto _ : state) {
+      work();
+      context.finish();
+    }
+    context.set_profiling(true);
+    for (int i = 0; i < profiled_runs; ++i) work();
+    for (const compute::StageTime& stage : context.stage_times())
+      state.counters[stage.stage + "_ms"] = stage.milliseconds / profiled_runs;
+    context.set_profiling(false);
+    state.counters["pairs"] = static_cast<double>(rasterizer.pairs());
   }
   compute::Context context = compute::Context::open();
-  Camera camera;
+  BenchScene scene;
   Rasterizer rasterizer;
   DeviceGaussians gaussians;
   RenderOutput output;
 };
 
-void depth_fwd(benchmark::State& state) {
-  Bench bench(state);
-  bench.forward({});
-  for (auto _ : state) bench.forward({});
-  state.counters["pairs"] = static_cast<double>(bench.rasterizer.pairs());
+void depth_fwd(benchmark::State& state, const BenchScene& scene) {
+  Bench bench(scene);
+  bench.run(state, [&] { bench.forward({}); });
 }
 
-void color_fwd(benchmark::State& state) {
-  Bench bench(state);
+/// 2000 pixels spread evenly at random.
+void sparse_depth(benchmark::State& state, const BenchScene& scene) {
+  constexpr int wanted = 2000;
+  Bench bench(scene);
+  Random random(3);
+  std::vector<cv::Point> pixels;
+  for (int i = 0; i < wanted; ++i) {
+    const double x = random.uniform(0.0, scene.camera.width), y = random.uniform(0.0, scene.camera.height);
+    pixels.emplace_back(static_cast<int>(x), static_cast<int>(y));
+  }
   RenderRequest request;
-  request.color = true;
-  request.depth = false;
-  bench.forward(request);
-  for (auto _ : state) bench.forward(request);
+  request.sigma = true;
+  bench.run(state, [&] {
+    bench.rasterizer.forward_pixels(bench.gaussians, scene.camera, scene.T_world_camera, request, pixels, bench.output);
+  });
 }
 
-void fwd_bwd(benchmark::State& state) {
-  Bench bench(state);
-  RenderRequest request;
-  request.color = true;
-  request.depth = false;
-  bench.forward(request);
+void color_fwd(benchmark::State& state, const BenchScene& scene) {
+  Bench bench(scene);
+  bench.run(state, [&] { bench.forward(color_only()); });
+}
+
+void fwd_bwd(benchmark::State& state, const BenchScene& scene) {
+  Bench bench(scene);
   OutputGradients gradients;
-  gradients.color.resize(bench.context, bench.output.color.size());
-  gradients.color.upload(std::vector<float>(bench.output.color.size(), 1.0F));
+  gradients.color = compute::Buffer<float>(
+      bench.context,
+      std::vector<float>(
+          static_cast<std::size_t>(3 * scene.camera.width) * static_cast<std::size_t>(scene.camera.height), 1.0F));
   DeviceGaussians result;
-  bench.rasterizer.backward(bench.gaussians, gradients, result);
-  for (auto _ : state) {
-    bench.rasterizer.forward(bench.gaussians, bench.camera, SE3(), request, bench.output);
+  bench.run(state, [&] {
+    bench.forward(color_only());
     bench.rasterizer.backward(bench.gaussians, gradients, result);
-    bench.context.finish();
-  }
+  });
 }
 
-void sizes(benchmark::internal::Benchmark* b) {
-  for (const int n : {10000, 30000, 100000, 300000, 1000000}) {
-    b->Args({n, 640, 480});
-    if (n <= 100000) b->Args({n, 320, 240});
+/// What the scene itself looks like: the images to train on, from two poses beside each other.
+class RenderedViews : public TrainingViews {
+ public:
+  explicit RenderedViews(Bench& bench) : camera_(bench.scene.camera) {
+    for (const double x : {0.0, 0.02}) {
+      poses_.push_back(bench.scene.T_world_camera * SE3(Eigen::Quaterniond::Identity(), {x, 0.0, 0.0}));
+      bench.rasterizer.forward(bench.gaussians, camera_, poses_.back(), color_only(), bench.output);
+      const std::vector<float> planes = bench.output.color.download();
+      ColorImage image(camera_.height, camera_.width);
+      for (std::size_t i = 0; i < image.total(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c)
+          image[0][i][static_cast<int>(c)] = std::min(planes[c * image.total() + i], 1.0F);
+      }
+      images_.push_back(image);
+    }
   }
-  // Real time for what a user waits; process CPU time for what a busy machine cannot distort.
-  b->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+  int count() const override { return static_cast<int>(poses_.size()); }
+  Camera camera(int) const override { return camera_; }
+  SE3 T_world_camera(int i) const override { return poses_[static_cast<std::size_t>(i)]; }
+  ColorImage color(int i) override { return images_[static_cast<std::size_t>(i)]; }
+
+ private:
+  Camera camera_;
+  std::vector<SE3> poses_;
+  std::vector<ColorImage> images_;
+};
+
+void train_step(benchmark::State& state, const BenchScene& scene) {
+  Bench bench(scene);
+  RenderedViews views(bench);
+  TrainerOptions options;
+  options.iterations = 1 << 20;  // so that rates hardly fall while it is timed
+  options.coarse_levels = 0;     // full size from the start
+  Trainer trainer(bench.context, options, scene.gaussians, views);
+  bench.run(state, [&] { trainer.step(); });
 }
 
-BENCHMARK(depth_fwd)->Apply(sizes);
-BENCHMARK(color_fwd)->Apply(sizes);
-BENCHMARK(fwd_bwd)->Apply(sizes);
+/// Pixels where the two depths differ by more than rounding explains: a Gaussian on the edge of its reach, in or out.
+double share_of_different(const std::vector<float>& a, const std::vector<float>& b) {
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) different += std::abs(a[i] - b[i]) <= 1e-3F ? 0 : 1;
+  return static_cast<double>(different) / static_cast<double>(a.size());
+}
+
+void yardstick_depth_fwd(benchmark::State& state, const BenchScene& scene) {
+  if (!Yardstick::supported()) return state.SkipWithError("the yardstick needs AVX2 and FMA");
+  Yardstick yardstick(scene.gaussians, scene.camera, scene.T_world_camera);
+  yardstick.render();
+  Yardstick::Stages sum;
+  double runs = 0.0;
+  for (auto _ : state) {
+    yardstick.render();
+    const Yardstick::Stages stages = yardstick.stages();
+    sum.project_ms += stages.project_ms;
+    sum.sort_ms += stages.sort_ms;
+    sum.bin_ms += stages.bin_ms;
+    sum.composite_ms += stages.composite_ms;
+    runs += 1.0;
+  }
+  state.counters["project_ms"] = sum.project_ms / runs;
+  state.counters["sort_ms"] = sum.sort_ms / runs;
+  state.counters["bin_ms"] = sum.bin_ms / runs;
+  state.counters["composite_ms"] = sum.composite_ms / runs;
+  state.counters["pairs"] = static_cast<double>(yardstick.pairs());
+  Bench bench(scene);
+  bench.forward({});
+  const double share = share_of_different(yardstick.depth(), bench.output.depth.download());
+  state.counters["different"] = share;
+  if (share > 1e-3) fail(state, "depth of yardstick and rasteriser differ by over 1 mm in " + std::to_string(share));
+}
+
+using Work = void (*)(benchmark::State&, const BenchScene&);
+struct Named {
+  const char* name;
+  Work work;
+};
+constexpr Named works[] = {{"depth_fwd", depth_fwd},       {"yardstick_depth_fwd", yardstick_depth_fwd},
+                           {"sparse_depth", sparse_depth}, {"color_fwd", color_fwd},
+                           {"fwd_bwd", fwd_bwd},           {"train_step", train_step}};
+
+void add(const Named& named, const std::string& scene_name, int width, int height,
+         const std::function<BenchScene()>& make) {
+  const std::string name = named.name + ("/" + scene_name) + "/" + std::to_string(width) + "x" + std::to_string(height);
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [work = named.work, make](benchmark::State& state) { work(state, make()); })
+      ->MeasureProcessCPUTime()
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
+void add_all() {
+  for (const auto& [width, height] : {std::pair{320, 240}, {640, 480}}) {
+    for (const std::size_t n : {10000, 30000, 100000, 300000, 1000000}) {
+      for (const Named& named : works)
+        add(named, std::to_string(n), width, height, [n, w = width, h = height] { return random_scene(n, w, h); });
+    }
+    if (!map_scene(width, height)) continue;
+    for (const Named& named : works)
+      add(named, "map", width, height, [w = width, h = height] { return *map_scene(w, h); });
+  }
+}
 
 }  // namespace
 }  // namespace odosplat
+
+int main(int argc, char** argv) {
+  try {
+    odosplat::add_all();
+    odosplat::run_benchmarks(argc, argv);
+    return odosplat::failed ? 1 : 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "odosplat_bench: %s\n", error.what());
+    return 2;
+  }
+}

@@ -120,8 +120,25 @@ TEST_F(ProgramTest, ProfilingCountsLaunches) {
   ASSERT_EQ(context_.kernel_times().size(), 1U);
   EXPECT_EQ(context_.kernel_times()[0].name, "scale");
   EXPECT_EQ(context_.kernel_times()[0].launches, 2);
+  EXPECT_EQ(context_.kernel_times()[0].stage, "scale");
   context_.reset_kernel_times();
   EXPECT_TRUE(context_.kernel_times().empty());
+}
+
+TEST_F(ProgramTest, ProfilingSumsTheKernelsOfAStage) {
+  const Program program = Program::from_text(context_, scale_text);
+  Kernel own = program.kernel("scale"), first = program.kernel("scale", "work"), second = first;
+  Buffer<float> in(context_, std::vector<float>{1.0F}), out(context_, 1);
+  context_.set_profiling(true);
+  for (Kernel* kernel : {&first, &own, &second}) (*kernel)(Range::linear(1, 1), in, out, 2.0F, std::int32_t{1});
+  const std::vector<StageTime> stages = context_.stage_times();
+  ASSERT_EQ(stages.size(), 2U);
+  EXPECT_EQ(stages[0].stage, "work");
+  EXPECT_EQ(stages[0].launches, 2);
+  ASSERT_EQ(stages[0].kernels.size(), 1U);
+  EXPECT_EQ(stages[0].kernels[0].milliseconds, stages[0].milliseconds);
+  EXPECT_EQ(stages[1].stage, "scale");
+  EXPECT_EQ(stages[1].launches, 1);
 }
 
 TEST(BufferTest, EmptyAndGrowing) {

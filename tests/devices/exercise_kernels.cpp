@@ -17,10 +17,12 @@
 #include <vector>
 
 #include "odosplat/core/random.hpp"
+#include "odosplat/kernels/constants.h"
 #include "odosplat/splat/adam.hpp"
 #include "odosplat/splat/losses.hpp"
 #include "odosplat/splat/raster_pairs.hpp"
 #include "odosplat/splat/rasterizer.hpp"
+#include "odosplat/splat/viewpoint.hpp"
 #include "splat/raster_scenes.hpp"
 
 namespace odosplat {
@@ -65,8 +67,7 @@ Buffer<float> Exercise::some_gradient(std::size_t n) const {
   return {context_, values};
 }
 
-// Both layouts of scan and sort, then boxes of round Gaussians, and both ways to sort their pairs: the counting sort is
-// used on CPUs only.
+// Both layouts of scan and sort, and both ways to sort pairs.
 void Exercise::sorts() {
   const std::size_t n = large_ ? 5000 : 70;
   std::vector<std::uint32_t> orders[2], sums[2];
@@ -83,22 +84,23 @@ void Exercise::sorts() {
     orders[groups] = out.download();
   }
   if (orders[0] != orders[1] || sums[0] != sums[1]) throw std::runtime_error("sort over chunks and groups disagree");
-  const std::array<std::int32_t, 4> grid{90, 60, 6, 4};
-  Random random(4);
-  std::vector<float> boxes;
-  std::vector<std::uint32_t> keys;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double r = random.uniform(0.5, 20.0);
-    for (const double v : {random.uniform(-10.0, 100.0), random.uniform(-10.0, 70.0), r, r, 0.0, r * r, 1.0, 0.0}) {
-      boxes.push_back(static_cast<float>(v));
-    }
-    keys.push_back(random.below(8) == 0 ? 0xffffffffU : random.below(1U << 30U));
-  }
-  const compute::Program program(context_, {"raster_common.cl", "projection.cl", "project.cl", "tiles.cl"});
+  // The projection for one Gaussian an item, then both ways to sort its pairs: the counting sort is for CPUs only.
+  const compute::Program program(context_, {"raster_common.cl", "projection.cl", "tiles.cl", "project.cl"}, "-D GW=1");
+  const Viewpoint view = make_viewpoint(scene_.camera, scene_.T_world_camera);
+  DeviceGaussians gaussians;
+  gaussians.upload(context_, scene_.gaussians);
+  const std::size_t count = gaussians.size();
+  const WantedTiles all{0, Buffer<std::uint32_t>(context_, 0)};
+  const Buffer<float> splats(context_, 16 * count), boxes(context_, 8 * (count + 1));
+  const Buffer<std::uint32_t> none(context_, 0), depth_keys(context_, count), counts(context_, count);
+  program.kernel("project")(compute::Range::linear(count, ITEM_GROUP), static_cast<std::int32_t>(count),
+                            std::int32_t{0}, none, gaussians.positions, gaussians.log_scales, gaussians.rotations,
+                            gaussians.opacity_logits, view.pose, view.lens, view.grid, 0.3F, std::int32_t{0},
+                            std::int32_t{1}, all.sparse, all.blocks, splats, boxes, depth_keys, counts);
   std::vector<std::uint32_t> lists[2], slots[2];
   for (const bool long_chunks : {false, true}) {
     RasterPairs pairs(context_, program, long_chunks);
-    pairs.build(n, Buffer<float>(context_, boxes), Buffer<std::uint32_t>(context_, keys), grid);
+    pairs.build(count, 1, boxes, depth_keys, counts, view.grid, all);
     lists[long_chunks] = pairs.list().download();
     slots[long_chunks] = pairs.slot().download();
   }
@@ -117,6 +119,13 @@ void Exercise::raster(Rasterizer& rasterizer, const std::string& name, const Ren
   keep(name + ".depth", output.depth.download());
   keep(name + ".alpha", output.alpha.download());
   keep(name + ".sigma", output.sigma.download());
+  // The same at some pixels only; one of them twice.
+  const int width = scene_.camera.width, height = scene_.camera.height;
+  const std::vector<cv::Point> places{{0, 0}, {width - 1, height - 1}, {width / 2, height / 2}, {3, 5}, {3, 5}};
+  RenderOutput some;
+  Rasterizer(context_, rasterizer.options())
+      .forward_pixels(gaussians, scene_.camera, scene_.T_world_camera, request, places, some);
+  keep(name + ".some_alpha", some.alpha.download());
   if (request.sigma) return;  // not differentiated: the backward pass is that without it
   OutputGradients given;
   given.color = some_gradient(output.color.size());

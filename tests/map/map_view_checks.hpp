@@ -8,7 +8,9 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <vector>
 
+#include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/map/map_view.hpp"
 
@@ -68,8 +70,34 @@ inline void expect_well_formed(const ViewImages& images, const Camera& camera, c
   EXPECT_EQ(bad_color, 0) << "colour that is not finite";
 }
 
+/// Some pixels, one of them twice, are those of the whole image.
+inline void check_map_view_pixels(MapView& view, const Camera& camera, const SE3& T_world_camera) {
+  const std::vector<cv::Point> pixels{{0, 0},
+                                      {camera.width - 1, camera.height - 1},
+                                      {camera.width / 2, camera.height / 2},
+                                      {camera.width / 3, camera.height / 4},
+                                      {0, 0}};
+  const ViewRequest all{true, true};
+  const ViewImages whole = view.render(camera, T_world_camera, all);
+  const ViewImages some = view.render_pixels(camera, T_world_camera, all, pixels);
+  const auto matches = [&](const auto& image, const auto& picked) {
+    ASSERT_EQ(picked.empty(), image.empty());
+    if (image.empty()) return;
+    ASSERT_EQ(picked.size(), cv::Size(static_cast<int>(pixels.size()), 1));
+    for (std::size_t i = 0; i < pixels.size(); ++i) EXPECT_EQ(picked(0, static_cast<int>(i)), image(pixels[i])) << i;
+  };
+  matches(whole.depth, some.depth);
+  matches(whole.alpha, some.alpha);
+  matches(whole.color, some.color);
+  ASSERT_EQ(some.sigma.empty(), whole.sigma.empty());
+  for (int i = 0; i < some.sigma.cols; ++i) EXPECT_EQ(some.sigma(0, i) > 0.0F, some.depth(0, i) > 0.0F);
+  EXPECT_TRUE(view.render_pixels(camera, T_world_camera, all, {}).depth.empty());
+  EXPECT_THROW(view.render_pixels(camera, T_world_camera, all, {{camera.width, 0}}), InputError);
+  EXPECT_THROW(view.render_pixels(camera, T_world_camera, all, {{0, -1}}), InputError);
+}
+
 /// A view with something in sight of T_world_camera: sizes that are no round numbers, images asked for and not,
-/// the same call twice with another call between, one thread and several.
+/// the same call twice with another call between, one thread and several, some pixels.
 inline void check_map_view(MapView& view, const Camera& camera, const SE3& T_world_camera) {
   EXPECT_FALSE(view.name().empty());
   const ViewRequest all{true, true};
@@ -86,6 +114,7 @@ inline void check_map_view(MapView& view, const Camera& camera, const SE3& T_wor
     expect_same_bits(first, view.render(camera, T_world_camera, all));
   }
   set_threads(before);
+  check_map_view_pixels(view, camera, T_world_camera);
 }
 
 /// The same view at sizes down to one pixel. Not for views bound to one size.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "map/map_view_checks.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
 #include "odosplat/splat/initialize.hpp"
@@ -32,6 +33,35 @@ TEST(GaussianView, DepthIsThatOfTheSurface) {
     EXPECT_GT(test::psnr_db(images.color, scene.color(T_world_camera)), 20.0);
     EXPECT_EQ(images.alpha.size(), images.depth.size());
     EXPECT_EQ(view.name(), "gaussian");
+  }
+}
+
+TEST(GaussianView, KeepsWhatEveryMapViewMust) {
+  const CornerScene scene;
+  const auto context = compute::Context::open();
+  for (const DepthMode mode : {DepthMode::expected, DepthMode::median}) {
+    GaussianViewOptions options;
+    options.depth_mode = mode;
+    GaussianView view(context, corner(), options);
+    check_map_view(view, scene.camera, scene.T_world_camera(3));
+    check_map_view_sizes(view, scene.camera, scene.T_world_camera(3));
+  }
+  GaussianView empty(context, Gaussians{});
+  check_empty_map_view(empty, scene.camera, SE3());
+}
+
+TEST(GaussianView, SigmaOfSomePixelsIsSpreadAndFloor) {
+  const CornerScene scene;
+  GaussianViewOptions options;
+  options.sigma_slope_px = 0.0F;
+  GaussianView view(compute::Context::open(), corner(), options);
+  std::vector<cv::Point> pixels;
+  for (int x = 0; x < scene.camera.width; x += 3) pixels.emplace_back(x, scene.camera.height / 2);
+  const ViewImages whole = view.render(scene.camera, scene.T_world_camera(2), {});
+  const ViewImages some = view.render_pixels(scene.camera, scene.T_world_camera(2), {}, pixels);
+  for (int i = 0; i < some.sigma.cols; ++i) {
+    const float expected = whole.sigma(pixels[static_cast<std::size_t>(i)]);
+    EXPECT_NEAR(some.sigma(0, i), expected, 1e-6F * expected);
   }
 }
 
