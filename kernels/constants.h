@@ -37,8 +37,16 @@
 /* Gaussians whose pose gradients one item sums. */
 #define POSE_CHUNK 1024
 
-/* Radix sort: bits a pass, and the size of a digit's table. */
+/* Radix sort over chunks: bits a pass, and the size of a digit's table. */
 #define RADIX_BITS 11
 #define RADIX_SIZE 2048
+/* The same over groups: bits a pass, digits, keys of an item and of a group. */
+#define RADIX_GROUP_BITS 4
+#define RADIX_DIGITS 16
+#define RADIX_ITEM_KEYS 8
+#define RADIX_GROUP_KEYS (SCAN_GROUP * RADIX_ITEM_KEYS)
+/* Scan over groups: items of a group, and values that it takes at once. */
+#define SCAN_GROUP 256
+#define SCAN_BLOCK (4 * SCAN_GROUP)
 
 #endif

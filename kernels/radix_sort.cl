@@ -4,7 +4,9 @@
 // a stable sort has one right answer, so the number of chunks changes the speed and nothing else.
 
 // `first` != 0: the input order is 0, 1, 2, ... and is not read.
-uint radix_index(__global const uint* restrict order, uint i, int first) { return first ? i : order[i]; }
+static inline uint radix_index(__global const uint* restrict order, uint i, int first) {
+  return first ? i : order[i];
+}
 
 __kernel void radix_histogram(__global const uint* restrict keys, __global const uint* restrict order,
                               __global uint* restrict counts, uint n, uint chunk, uint chunks, uint shift, int first) {

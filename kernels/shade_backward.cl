@@ -2,8 +2,8 @@
    Copyright 2026 The odosplat authors
    One item a Gaussian: dL/dcolour to SH, and through the direction to position and pose. Runs after project_backward,
    to whose results it adds. */
-kernel void shade_backward(int n, global const float* restrict positions, global const float* restrict sh, int degree,
-                           int stored, float16 pose, global const uint* restrict counts,
+kernel void shade_backward(int n, global const float* restrict positions, global const float* restrict sh, int stored,
+                           float16 pose, global const uint* restrict counts,
                            global const float4* restrict splats, global const float4* restrict color_gradients,
                            global float* restrict position_gradients, global float* restrict sh_gradients, int with_pose,
                            global float* restrict pose_terms) {
@@ -21,20 +21,17 @@ kernel void shade_backward(int n, global const float* restrict positions, global
   const float3 given = color_gradients[g].xyz;
   const float3 d_color = (float3)(color.x > 0.0f ? given.x : 0.0f, color.y > 0.0f ? given.y : 0.0f,
                                   color.z > 0.0f ? given.z : 0.0f);
-  float basis[16];
-  float weight[16];
-  sh_basis(degree, direction, basis);
+  float basis[SH_USED];
+  float weight[SH_USED];
+  sh_basis(direction, basis);
   global const float* coefficient = sh + (size_t)g * (size_t)(3 * stored);
-  const int used = (degree + 1) * (degree + 1);
-  for (int k = 0; k < stored; ++k) {
-    if (k < used) {
-      weight[k] = dot(d_color, vload3(k, coefficient));
-      vstore3(basis[k] * d_color, k, gradient);
-    } else {
-      vstore3((float3)(0.0f), k, gradient);
-    }
+#pragma unroll
+  for (int k = 0; k < SH_USED; ++k) {
+    weight[k] = dot(d_color, vload3(k, coefficient));
+    vstore3(basis[k] * d_color, k, gradient);
   }
-  const float3 slope = sh_slope(degree, direction, weight);
+  for (int k = SH_USED; k < stored; ++k) vstore3((float3)(0.0f), k, gradient);
+  const float3 slope = sh_slope(direction, weight);
   const float3 d_ray = (slope - dot(slope, direction) * direction) * inverse_length;
   vstore3(vload3(g, position_gradients) + d_ray, g, position_gradients);
   if (with_pose) {

@@ -20,14 +20,14 @@ __constant float WINDOW[2 * RADIUS + 1] = {0.00386592014f, 0.0285655007f, 0.1353
 #define C2 9.0e-4f
 
 /* 8 pixels from x on; those beyond the row are 0. */
-inline float8 load_pixels(const __global float* restrict row, int x, int width) {
+static inline float8 load_pixels(const __global float* restrict row, int x, int width) {
   if (x + 8 <= width) return vload8(0, row + x);
   float v[8];
   for (int i = 0; i < 8; ++i) v[i] = x + i < width ? row[x + i] : 0.0f;
   return vload8(0, v);
 }
 
-inline void store_pixels(__global float* restrict row, int x, int width, float8 value) {
+static inline void store_pixels(__global float* restrict row, int x, int width, float8 value) {
   if (x + 8 <= width) {
     vstore8(value, 0, row + x);
     return;
@@ -39,26 +39,26 @@ inline void store_pixels(__global float* restrict row, int x, int width, float8 
 }
 
 /* 1 where x + lane is inside the row, else 0. */
-inline float8 inside(int x, int width) {
+static inline float8 inside(int x, int width) {
   const int8 column = (int8)(0, 1, 2, 3, 4, 5, 6, 7) + x;
   return select((float8)(0.0f), (float8)(1.0f), (column >= 0) & (column < width));
 }
 
 /* Sum of the window's weights that fall into the image, along one axis. */
-inline float8 weight_along_row(int x, int width) {
+static inline float8 weight_along_row(int x, int width) {
   float8 sum = (float8)(0.0f);
   for (int k = -RADIUS; k <= RADIUS; ++k) sum += WINDOW[k + RADIUS] * inside(x + k, width);
   return fmax(sum, (float8)(1.0e-6f)); /* lanes beyond the row may see nothing */
 }
 
-inline float weight_along_column(int y, int height) {
+static inline float weight_along_column(int y, int height) {
   float sum = 0.0f;
   for (int k = -RADIUS; k <= RADIUS; ++k)
     if (y + k >= 0 && y + k < height) sum += WINDOW[k + RADIUS];
   return sum;
 }
 
-inline float sum_lanes(float8 v) {
+static inline float sum_lanes(float8 v) {
   const float4 a = v.lo + v.hi;
   const float2 b = a.lo + a.hi;
   return b.x + b.y;

@@ -2,31 +2,46 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/compute/scan.hpp"
 
+#include "odosplat/kernels/constants.h"
+
 namespace odosplat::compute {
 namespace {
 
-// Chunks of 4096 keep two CPU cores busy from 8192 elements on; a GPU wants more and shorter ones.
-std::uint32_t chunk_size(const Context& context) { return context.is_cpu() ? 4096U : 256U; }
+// Keeps two CPU cores busy from 8192 elements on.
+constexpr std::uint32_t chunk_size = 4096;
 
 }  // namespace
 
-Scan::Scan(const Context& context)
+Layout chosen_layout(Layout wanted, const Context& context) {
+  if (wanted != Layout::automatic) return wanted;
+  return context.is_cpu() ? Layout::chunks : Layout::groups;
+}
+
+Scan::Scan(const Context& context, Layout layout)
     : context_(context),
-      program_(context, {"scan.cl"}),
-      chunk_sums_(program_.kernel("scan_chunk_sums", "scan")),
-      scan_sums_(program_.kernel("scan_sums", "scan")),
-      write_(program_.kernel("scan_write", "scan")) {}
+      groups_(chosen_layout(layout, context) == Layout::groups),
+      program_(context, {groups_ ? "group_scan.cl" : "scan.cl"}),
+      sums_kernel_(program_.kernel(groups_ ? "group_scan_sums" : "scan_chunk_sums", "scan")),
+      starts_kernel_(program_.kernel(groups_ ? "group_scan_starts" : "scan_sums", "scan")),
+      write_kernel_(program_.kernel(groups_ ? "group_scan_write" : "scan_write", "scan")) {}
 
 void Scan::exclusive(const Buffer<std::uint32_t>& counts, std::size_t n, Buffer<std::uint32_t>& out) {
-  const std::uint32_t chunk = chunk_size(context_);
+  const std::uint32_t chunk = groups_ ? SCAN_BLOCK : chunk_size;
   const std::size_t chunks = (n + chunk - 1) / chunk;
   const auto size = static_cast<std::uint32_t>(n);
+  const auto chunks32 = static_cast<std::uint32_t>(chunks);
   out.resize(context_, n + 1);
   sums_.resize(context_, chunks);
-  const std::size_t local = context_.is_cpu() ? 1 : 64;
-  chunk_sums_(Range::linear(chunks, local), counts, sums_, size, chunk);
-  scan_sums_(Range::linear(1, 1), sums_, out, static_cast<std::uint32_t>(chunks), size);
-  write_(Range::linear(chunks, local), counts, sums_, out, size, chunk);
+  if (groups_) {
+    const Range blocks = Range::linear(chunks * SCAN_GROUP, SCAN_GROUP);
+    sums_kernel_(blocks, counts, sums_, size);
+    starts_kernel_(Range::linear(SCAN_GROUP, SCAN_GROUP), sums_, out, chunks32, size);
+    write_kernel_(blocks, counts, sums_, out, size);
+    return;
+  }
+  sums_kernel_(Range::linear(chunks, 1), counts, sums_, size, chunk);
+  starts_kernel_(Range::linear(1, 1), sums_, out, chunks32, size);
+  write_kernel_(Range::linear(chunks, 1), counts, sums_, out, size, chunk);
 }
 
 }  // namespace odosplat::compute

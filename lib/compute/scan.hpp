@@ -9,10 +9,20 @@
 
 namespace odosplat::compute {
 
+/// How Scan and RadixSort lay out their work; results are equal on every device.
+enum class Layout {
+  automatic,  // chunks on CPUs, groups elsewhere
+  chunks,     // few long runs, a work-item each
+  groups      // many work-groups of SCAN_GROUP items with local memory
+};
+
+/// Never automatic.
+Layout chosen_layout(Layout wanted, const Context& context);
+
 /// Exclusive prefix sum of 32-bit counts. Integer sums: the same result on every device.
 class Scan {
  public:
-  explicit Scan(const Context& context);
+  explicit Scan(const Context& context, Layout layout = Layout::automatic);
 
   /// out[i] = counts[0] + ... + counts[i-1] for i in 0..n (n + 1 values, the last is the total); out is resized.
   /// `counts` has at least n elements. Sums beyond 2^32 - 1 wrap. Queued.
@@ -20,10 +30,9 @@ class Scan {
 
  private:
   Context context_;
+  bool groups_;
   Program program_;
-  Kernel chunk_sums_;
-  Kernel scan_sums_;
-  Kernel write_;
+  Kernel sums_kernel_, starts_kernel_, write_kernel_;
   Buffer<std::uint32_t> sums_;
 };
 

@@ -3,6 +3,7 @@
 #include "odosplat/splat/raster_pairs.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -98,7 +99,7 @@ void RasterPairs::sort_by_radix(std::size_t n, std::size_t tiles, const compute:
   scan_.exclusive(depth_counts_, n, depth_offsets_);
   order_pairs_(Range::linear(n, ITEM_GROUP), n_arg, order_, offsets_, depth_offsets_, slot_tile_, depth_tile_,
                depth_pair_);
-  sort_.sort(depth_tile_, pairs_, sorted_);
+  sort_.sort(depth_tile_, pairs_, sorted_, static_cast<int>(std::bit_width(tiles)));
   gather_pairs_(Range::linear(pairs_, ITEM_GROUP), static_cast<std::uint32_t>(pairs_), static_cast<std::int32_t>(tiles),
                 sorted_, depth_tile_, depth_pair_, list_, slot_, tile_start_);
 }

@@ -118,6 +118,8 @@ struct Rasterizer::Impl {
   std::string shell_options() const {
     return shell == Shell::tile ? define("SHELL_TILE", 1) + define("VW", block_pixels) : define("SHELL_TILE", 0);
   }
+  // One item `lanes` Gaussians.
+  Range groups() const { return Range::linear((count + lanes - 1) / lanes, lanes > 1 ? 1 : ITEM_GROUP); }
   void prepare(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
                const RenderRequest& wanted);
   void forward(const DeviceGaussians& gaussians, const Part& part, RenderOutput& out);
@@ -134,14 +136,14 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, const Part& par
   boxes.resize(context, box_floats * (count + lanes));
   depth_keys.resize(context, count);
   counts.resize(context, count);
-  project(Range::linear((count + lanes - 1) / lanes, lanes > 1 ? 1 : ITEM_GROUP), n, part.select, part.gaussians,
-          gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
-          view.lens, view.grid, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane},
-          part.tiles.sparse, part.tiles.blocks, splats, boxes, depth_keys, counts);
+  project(groups(), n, part.select, part.gaussians, gaussians.positions, gaussians.log_scales, gaussians.rotations,
+          gaussians.opacity_logits, view.pose, view.lens, view.grid, options.dilation,
+          std::int32_t{options.compensated}, std::int32_t{ray_plane}, part.tiles.sparse, part.tiles.blocks, splats,
+          boxes, depth_keys, counts);
   pairs.build(count, lanes, boxes, depth_keys, counts, view.grid, part.tiles);
   if (request.color) {
-    kernel("shade", {"raster_common.cl", "sh.cl", "shade.cl"}, "shade")(
-        items, n, part.select, part.gaussians, gaussians.positions, gaussians.sh, std::int32_t{sh_degree},
+    kernel("shade", {"raster_common.cl", "sh.cl", "shade.cl"}, "shade", define("SH_DEGREE", sh_degree))(
+        items, n, part.select, part.gaussians, gaussians.positions, gaussians.sh,
         std::int32_t{gaussians.coefficients()}, view.pose, counts, splats);
   }
   const std::size_t pixels = view.pixels;
@@ -202,16 +204,16 @@ void Rasterizer::Impl::backward(const DeviceGaussians& gaussians, const OutputGr
   const auto n = static_cast<std::int32_t>(count);
   const Range items = Range::linear(count, ITEM_GROUP);
   const std::vector<std::string> files = {"raster_common.cl", "projection.cl", "project_backward.cl"};
-  kernel("project_backward", files, "backward", images)(
-      items, n, gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
+  kernel("project_backward", files, "backward", images + define("GW", static_cast<int>(lanes)))(
+      groups(), n, gaussians.positions, gaussians.log_scales, gaussians.rotations, gaussians.opacity_logits, view.pose,
       view.lens, options.dilation, std::int32_t{options.compensated}, std::int32_t{ray_plane}, counts, pairs.offsets(),
       slots, gradients.positions, gradients.log_scales, gradients.rotations, gradients.opacity_logits, color_gradients,
       screen_gradients, std::int32_t{with_pose}, pose_terms);
   if (color) {
-    kernel("shade_backward", {"raster_common.cl", "sh.cl", "shade_backward.cl"}, "backward")(
-        items, n, gaussians.positions, gaussians.sh, std::int32_t{sh_degree}, std::int32_t{gaussians.coefficients()},
-        view.pose, counts, splats, color_gradients, gradients.positions, gradients.sh, std::int32_t{with_pose},
-        pose_terms);
+    kernel("shade_backward", {"raster_common.cl", "sh.cl", "shade_backward.cl"}, "backward",
+           define("SH_DEGREE", sh_degree))(
+        items, n, gaussians.positions, gaussians.sh, std::int32_t{gaussians.coefficients()}, view.pose, counts, splats,
+        color_gradients, gradients.positions, gradients.sh, std::int32_t{with_pose}, pose_terms);
   } else {
     gradients.sh.fill_zero();
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <string>
 
 #include "odosplat/compute/context.hpp"
 #include "odosplat/compute/device.hpp"
@@ -34,8 +35,20 @@ std::string message_of(const std::vector<DeviceInfo>& devices, const std::string
 
 class Device : public testing::Test {
  protected:
-  void SetUp() override { unsetenv("ODOSPLAT_DEVICE"); }
-  void TearDown() override { unsetenv("ODOSPLAT_DEVICE"); }
+  void SetUp() override {
+    const char* old = std::getenv("ODOSPLAT_DEVICE");
+    old_ = old != nullptr ? old : "";
+    unsetenv("ODOSPLAT_DEVICE");
+  }
+  // What the user asked for goes on for the tests behind this one.
+  void TearDown() override {
+    if (old_.empty()) {
+      unsetenv("ODOSPLAT_DEVICE");
+    } else {
+      setenv("ODOSPLAT_DEVICE", old_.c_str(), 1);
+    }
+  }
+  std::string old_;
   const std::vector<DeviceInfo> devices_{device(0, "llvmpipe (LLVM 15)", DeviceType::gpu, "it returns wrong pixels"),
                                          device(1, "EPYC", DeviceType::cpu), device(2, "GeForce One", DeviceType::gpu),
                                          device(3, "GeForce Two", DeviceType::gpu)};
