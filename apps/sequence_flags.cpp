@@ -8,8 +8,13 @@ namespace odosplat::apps {
 
 void add_sequence_flags(CLI::App* command, SequenceFlags& flags) {
   command->add_option("SEQ", flags.path, "sequence: a folder in one of the known layouts, or a video")->required();
-  command->add_option("--layout", flags.options.layout,
-                      "tum, icl, redwood, sevenscenes, replica, images or video (default: detected)");
+  add_layout_flags(command, flags);
+}
+
+void add_layout_flags(CLI::App* command, SequenceFlags& flags) {
+  command->add_option(
+      "--layout", flags.options.layout,
+      "tum, icl, redwood, sevenscenes, replica, colmap, nerfstudio, images or video (default: detected)");
   command->add_option("--camera", flags.options.camera_file, "camera.yaml to use instead of the sequence's own");
 }
 

@@ -20,6 +20,9 @@ struct SequenceFlags {
 /// Declares SEQ, --layout and --camera.
 void add_sequence_flags(CLI::App* command, SequenceFlags& flags);
 
+/// --layout and --camera alone, where the sequence has a flag of its own.
+void add_layout_flags(CLI::App* command, SequenceFlags& flags);
+
 Sequence open_sequence(const SequenceFlags& flags);
 
 /// Frames 0, N, 2N, ... that have a pose; InputError if there is none.

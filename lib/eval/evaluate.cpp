@@ -66,7 +66,7 @@ EvalResult evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   }
   result.truth_from_estimate = find_alignment(estimates, truths, options.alignment);
   const Similarity& S = result.truth_from_estimate;
-  for (SE3& T : estimates) T = SE3(S.T_target_source.rotation() * T.rotation(), S * T.translation());
+  for (SE3& T : estimates) T = S * T;
 
   std::vector<double> rotation_errors;
   for (std::size_t i = 0; i < result.pairs; ++i) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "odosplat/core/similarity.hpp"
 #include "odosplat/core/trajectory.hpp"
 #include "odosplat/eval/alignment.hpp"
 #include "odosplat/eval/association.hpp"

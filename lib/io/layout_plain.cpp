@@ -24,7 +24,7 @@ bool is_image_folder(const std::string& path) {
   return std::filesystem::is_directory(path, error) && !image_names(path).empty();
 }
 
-bool is_video(const std::string& path) { return file_exists(path); }
+bool is_video(const std::string& path) { return file_exists(path) && !is_transforms(path); }
 
 SequenceIndex index_image_folder(const std::string& path, const SequenceOptions& options) {
   SequenceIndex index;

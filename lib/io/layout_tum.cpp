@@ -60,14 +60,19 @@ SequenceIndex index_tum(const std::string& path, const SequenceOptions& options)
   const std::string truth = join(path, "groundtruth.txt");
   if (file_exists(truth)) index.truth = read_trajectory(truth);
   for (const ListedImage& image : colors) {
-    index.frames.push_back(
-        {image.time, image.time_text, join(path, image.path), "", pose_at(index.truth, image.time), std::nullopt});
+    FrameFiles frame;
+    frame.time = image.time;
+    frame.time_text = image.time_text;
+    frame.color = join(path, image.path);
+    frame.T_world_camera = pose_at(index.truth, image.time);
+    index.frames.push_back(std::move(frame));
   }
   const std::string depth_list = join(path, "depth.txt");
   if (file_exists(depth_list)) {
     const std::vector<ListedImage> depths = parse_image_list(depth_list, read_file(depth_list));
     for (const auto& [i, j] : associate_by_time(times_of(colors), times_of(depths), tum_depth_tolerance)) {
       index.frames[i].depth = join(path, depths[j].path);
+      index.frames[i].depth_time_text = depths[j].time_text;
       index.frames[i].T_world_depth = pose_at(index.truth, depths[j].time);
     }
   }

@@ -26,6 +26,8 @@ const std::vector<Layout>& layouts() {
       {"redwood", "*-color", is_redwood, index_redwood},
       {"sevenscenes", "frame-*.color.png or seq-*", is_sevenscenes, index_sevenscenes},
       {"replica", "results/frame*", is_replica, index_replica},
+      {"colmap", "cameras and images, .bin or .txt, here, in sparse or in sparse/0", is_colmap, index_colmap},
+      {"nerfstudio", "transforms.json", is_nerfstudio, index_nerfstudio},
       {"images", "PNG or JPEG files", is_image_folder, index_image_folder},
   };
   return all;

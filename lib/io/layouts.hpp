@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "odosplat/core/point_cloud.hpp"
 #include "odosplat/core/trajectory.hpp"
 #include "odosplat/io/camera_file.hpp"
 #include "odosplat/io/sequence.hpp"
@@ -24,6 +25,13 @@ struct FrameFiles {
   std::optional<SE3> T_world_camera;
   // Where the camera was when the depth image was taken, if its own stamp says so; none: as T_world_camera.
   std::optional<SE3> T_world_depth;
+  std::string depth_time_text;  // the stamp of the depth image, as listed; empty: the colour image's
+};
+
+/// Points that a data set gives beside its poses, in the same world, and how their file is read.
+struct SparsePoints {
+  std::string file;  // empty: none
+  PointCloud (*read)(const std::string& path) = nullptr;
 };
 
 /// What a layout's reader finds. Poses are as stored.
@@ -32,6 +40,7 @@ struct SequenceIndex {
   std::string camera_source;  // for errors: the camera file, or what calibration it is
   std::vector<FrameFiles> frames;
   Trajectory truth;
+  SparsePoints sparse_points;
   std::shared_ptr<const VideoReader> video;  // instead of colour files
 };
 
@@ -50,6 +59,10 @@ bool is_icl(const std::string& path);
 bool is_redwood(const std::string& path);
 bool is_sevenscenes(const std::string& path);
 bool is_replica(const std::string& path);
+bool is_colmap(const std::string& path);
+bool is_nerfstudio(const std::string& path);
+/// True for a file NAME.json, which is no video.
+bool is_transforms(const std::string& path);
 bool is_image_folder(const std::string& path);
 bool is_video(const std::string& path);
 SequenceIndex index_tum(const std::string& path, const SequenceOptions& options);
@@ -57,6 +70,8 @@ SequenceIndex index_icl(const std::string& path, const SequenceOptions& options)
 SequenceIndex index_redwood(const std::string& path, const SequenceOptions& options);
 SequenceIndex index_sevenscenes(const std::string& path, const SequenceOptions& options);
 SequenceIndex index_replica(const std::string& path, const SequenceOptions& options);
+SequenceIndex index_colmap(const std::string& path, const SequenceOptions& options);
+SequenceIndex index_nerfstudio(const std::string& path, const SequenceOptions& options);
 SequenceIndex index_image_folder(const std::string& path, const SequenceOptions& options);
 SequenceIndex index_video(const std::string& path, const SequenceOptions& options);
 

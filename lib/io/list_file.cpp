@@ -3,54 +3,14 @@
 #include "odosplat/io/list_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <tuple>
 
-#include "odosplat/core/error.hpp"
+#include "odosplat/io/text_words.hpp"
 
 namespace odosplat {
 namespace {
-
-constexpr std::string_view blanks = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t start = text.find_first_not_of(blanks);
-  if (start == std::string_view::npos) return {};
-  return text.substr(start, text.find_last_not_of(blanks) - start + 1);
-}
-
-std::string_view take_word(std::string_view& rest) {
-  rest = trimmed(rest);
-  const std::string_view word = rest.substr(0, std::min(rest.find_first_of(blanks), rest.size()));
-  rest = trimmed(rest.substr(word.size()));
-  return word;
-}
-
-[[noreturn]] void fail(const std::string& name, std::size_t line, const std::string& fault) {
-  throw InputError(name, "line " + std::to_string(line), fault);
-}
-
-double number(const std::string& name, std::size_t line, std::string_view word) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (word.empty() || error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
-    fail(name, line, "`" + std::string(word.substr(0, 24)) + "` is not a number");
-  }
-  return value;
-}
-
-// Calls visit(line number, text) for every line that holds something.
-template <typename Visit>
-void for_each_line(std::string_view text, Visit visit) {
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = trimmed(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (!line.empty() && line[0] != '#') visit(number, line);
-  }
-}
 
 bool names_color(std::string_view path) {
   return path.find("rgb") != std::string_view::npos || path.find("color") != std::string_view::npos;
@@ -62,10 +22,10 @@ std::vector<ListedImage> parse_image_list(const std::string& name, const std::st
   std::vector<ListedImage> images;
   for_each_line(text, [&](std::size_t line, std::string_view rest) {
     const std::string_view time = take_word(rest);
-    ListedImage image{number(name, line, time), std::string(time), std::string(rest), line};
-    if (image.path.empty()) fail(name, line, "names no file");
+    ListedImage image{word_number(name, line, time), std::string(time), std::string(rest), line};
+    if (image.path.empty()) fail_line(name, line, "names no file");
     if (!images.empty() && !(image.time > images.back().time)) {
-      fail(name, line, "time " + image.time_text + " is not after " + images.back().time_text);
+      fail_line(name, line, "time " + image.time_text + " is not after " + images.back().time_text);
     }
     images.push_back(std::move(image));
   });
@@ -75,15 +35,15 @@ std::vector<ListedImage> parse_image_list(const std::string& name, const std::st
 std::vector<ListedPair> parse_pair_list(const std::string& name, const std::string& text) {
   std::vector<ListedPair> pairs;
   for_each_line(text, [&](std::size_t line, std::string_view rest) {
-    const double first_id = number(name, line, take_word(rest));
+    const double first_id = word_number(name, line, take_word(rest));
     const std::string_view first = take_word(rest);
-    const double second_id = number(name, line, take_word(rest));
+    const double second_id = word_number(name, line, take_word(rest));
     const std::string_view second = take_word(rest);
-    if (first.empty() || second.empty()) fail(name, line, "expected `id depth id color`");
+    if (first.empty() || second.empty()) fail_line(name, line, "expected `id depth id color`");
     const bool color_first = names_color(first) && !names_color(second);
     ListedPair pair{second_id, std::string(second), std::string(first), line};
     if (color_first) pair = {first_id, std::string(first), std::string(second), line};
-    if (!pairs.empty() && !(pair.color_id > pairs.back().color_id)) fail(name, line, "ids do not grow");
+    if (!pairs.empty() && !(pair.color_id > pairs.back().color_id)) fail_line(name, line, "ids do not grow");
     pairs.push_back(std::move(pair));
   });
   return pairs;

@@ -69,6 +69,7 @@ struct Sequence::Data {
   std::string layout;
   SequenceIndex index;
   double fps = default_fps;
+  bool reflected = false;
   Undistorter undistorter;
 
   const FrameFiles& frame(std::size_t i) const {
@@ -118,7 +119,8 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
   data->index = layout.index(path, options);
   SequenceIndex& index = data->index;
   data->require_files();
-  if (index.camera.fy_sign < 0 && !options.as_stored) {
+  data->reflected = index.camera.fy_sign < 0 && !options.as_stored;
+  if (data->reflected) {
     for (FrameFiles& f : index.frames) {
       if (f.T_world_camera) f.T_world_camera = reflected(*f.T_world_camera);
       if (f.T_world_depth) f.T_world_depth = reflected(*f.T_world_depth);
@@ -126,12 +128,13 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
     for (StampedPose& pose : index.truth) pose.T_world_camera = reflected(pose.T_world_camera);
   }
   data->fps = index.camera.fps > 0.0 ? index.camera.fps : median_fps(index.frames);
-  data->undistorter = Undistorter(index.camera.camera, index.camera.distortion);
   if (index.video) {
     data->require_camera_size(path, index.video->frame_size());
   } else {
     data->require_camera_size(index.frames.front().color, read_image_size(index.frames.front().color));
   }
+  // Last: only now is the size that the camera file promises known to be true.
+  data->undistorter = Undistorter(index.camera.camera, index.camera.distortion);
   return Sequence(std::move(data));
 }
 
@@ -146,6 +149,38 @@ double Sequence::time(std::size_t i) const { return data_->frame(i).time; }
 const Trajectory& Sequence::truth() const { return data_->index.truth; }
 bool Sequence::has_depth(std::size_t i) const { return !data_->frame(i).depth.empty(); }
 GrayImage Sequence::gray(std::size_t i) const { return to_gray(color(i)); }
+
+bool Sequence::has_sparse_points() const { return !data_->index.sparse_points.file.empty(); }
+
+PointCloud Sequence::sparse_points() const {
+  const SparsePoints& points = data_->index.sparse_points;
+  if (points.file.empty()) throw InputError(data_->name, "has no sparse points");
+  PointCloud cloud = points.read(points.file);
+  if (cloud.size() == 0) throw InputError(points.file, "holds no point");
+  if (data_->reflected) {
+    for (Eigen::Vector3f& p : cloud.points) p.y() = -p.y();
+    for (Eigen::Vector3f& n : cloud.normals) n.y() = -n.y();
+  }
+  return cloud;
+}
+
+CameraFile Sequence::camera_file() const {
+  CameraFile file = data_->index.camera;
+  file.fy_sign = 1;
+  file.fps = data_->fps;
+  if (!file.vignette.empty()) {
+    file.vignette = (std::filesystem::path(data_->index.camera_source).parent_path() / file.vignette).string();
+  }
+  return file;
+}
+
+const std::string& Sequence::color_file(std::size_t i) const { return data_->frame(i).color; }
+const std::string& Sequence::depth_file(std::size_t i) const { return data_->frame(i).depth; }
+
+std::string Sequence::depth_time_text(std::size_t i) const {
+  const FrameFiles& frame = data_->frame(i);
+  return frame.depth_time_text.empty() ? time_text(i) : frame.depth_time_text;
+}
 
 std::string Sequence::time_text(std::size_t i) const {
   const FrameFiles& frame = data_->frame(i);

@@ -9,13 +9,15 @@
 
 #include "odosplat/core/camera.hpp"
 #include "odosplat/core/image.hpp"
+#include "odosplat/core/point_cloud.hpp"
 #include "odosplat/core/trajectory.hpp"
+#include "odosplat/io/camera_file.hpp"
 
 namespace odosplat {
 
 /// How a sequence is to be read.
 struct SequenceOptions {
-  std::string layout;       // "" = detect, or: tum icl redwood sevenscenes replica images video
+  std::string layout;       // "" = detect, or: tum icl redwood sevenscenes replica colmap nerfstudio images video
   std::string camera_file;  // camera.yaml that counts instead of the sequence's own and of the layout's calibration
   bool as_stored = false;   // true: poses as the files have them even where fy is negative (for checking conventions)
 
@@ -37,6 +39,16 @@ struct SequenceOptions {
 ///   sevenscenes  frame-NNNNNN.{color.png|color.jpg,depth.png,pose.txt} in the folder or in its one seq-NN.
 ///                585 585 320 240, 1000 a metre.
 ///   replica      results/frameN.jpg, results/depthN.png, traj.txt; cam_params.json there or one folder above.
+///   colmap       a COLMAP model, cameras, images and points3D as .bin or .txt, in the folder, in sparse or in
+///   sparse/0;
+///                images in images, in the folder itself, or in images one or two folders above. Frames in the natural
+///                order of their names, frame k at k / fps. Camera models SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL,
+///                RADIAL, OPENCV. All images must have one camera, unless a camera file is given. The world and its
+///                unit are the model's own: see sparse_points() and `odosplat align`.
+///   nerfstudio   transforms.json (or such a file by its own name): frames as listed, frame k at k / fps; one camera,
+///                given by the file or the same in every frame, OPENCV or simpler; depth_file_path in millimetres or as
+///                depth_unit_scale_factor says. The world is that of the stored poses and of ply_file_path;
+///                applied_transform is not undone. Masks are not used.
 ///   images       PNG and JPEG files in natural order (2 before 10), with a camera file. No poses, no depth.
 ///   video        what OpenCV decodes, with a camera file. All frames are counted at opening.
 /// A camera.yaml in the folder counts instead of a calibration named above. Where only frame numbers are known, time is
@@ -61,6 +73,9 @@ class Sequence {
   int fy_sign() const;
   /// Units of the depth files a metre.
   double depth_scale() const;
+  /// All that is known of the camera, lens distortion of the files included; fy_sign is 1 since poses are reflected.
+  /// A vignette is named by a path that holds from the working directory.
+  CameraFile camera_file() const;
   /// Images a second: as the camera file says, else 1 / (median step of time).
   double fps() const;
 
@@ -74,6 +89,18 @@ class Sequence {
   std::optional<SE3> T_world_depth(std::size_t i) const;
   /// Every pose that the data set gives, at its own rate, reflected like T_world_camera.
   const Trajectory& truth() const;
+
+  /// True if the data set brings points of its own in the world of its poses (COLMAP's points3D, ply_file_path).
+  bool has_sparse_points() const;
+  /// Those points, read when asked for. InputError if there are none, or the file is damaged.
+  PointCloud sparse_points() const;
+
+  /// Path of the frame's colour file; empty in videos.
+  const std::string& color_file(std::size_t i) const;
+  /// Path of its depth file; empty: none.
+  const std::string& depth_file(std::size_t i) const;
+  /// Stamp of its depth image, which may differ from the colour image's (TUM).
+  std::string depth_time_text(std::size_t i) const;
 
   /// RGB, 0..1. InputError if the file is damaged or of another size than the camera.
   ColorImage color(std::size_t i) const;

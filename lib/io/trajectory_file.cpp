@@ -70,15 +70,9 @@ class Lines {
 };
 
 SE3 pose_from_rows(const Lines& lines, const Line& line, const std::vector<double>& v) {
-  Eigen::Matrix3d R;
-  R << v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10];
-  // Files carry 5 to 9 digits.
-  if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-2 || R.determinant() < 0.0) {
-    lines.fail(line, "the matrix is no rotation");
-  }
-  // The nearest rotation: a quaternion taken from the rounded matrix would be 1e-6 degrees off.
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return {Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()), Eigen::Vector3d(v[3], v[7], v[11])};
+  const std::optional<SE3> pose = odosplat::pose_from_rows(v);
+  if (!pose) lines.fail(line, "the matrix is no rotation");
+  return *pose;
 }
 
 StampedPose tum_pose(const Lines& lines, const Line& line) {
@@ -171,6 +165,16 @@ void set_times(const std::string& times_path, Trajectory& trajectory) {
 }
 
 }  // namespace
+
+std::optional<SE3> pose_from_rows(const std::vector<double>& rows) {
+  const Eigen::Matrix<double, 3, 4> M = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(rows.data());
+  const Eigen::Matrix3d R = M.leftCols<3>();
+  // Files carry 5 to 9 digits. A NaN, as huge values give, is no rotation either.
+  if (!((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() <= 1e-2) || R.determinant() < 0.0) return std::nullopt;
+  // The nearest rotation: a quaternion taken from the rounded matrix would be 1e-6 degrees off.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return SE3(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()), Eigen::Vector3d(M.col(3)));
+}
 
 Trajectory parse_trajectory(const std::string& name, const std::string& text) {
   const Lines lines(name, text);

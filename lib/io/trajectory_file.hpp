@@ -2,7 +2,9 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "odosplat/core/trajectory.hpp"
 
@@ -26,6 +28,10 @@ Trajectory parse_trajectory(const std::string& name, const std::string& text);
 /// A single pose as four rows of four values (7-Scenes). Errors as above.
 SE3 read_pose_matrix(const std::string& path);
 SE3 parse_pose_matrix(const std::string& name, const std::string& text);
+
+/// Pose of the first 12 values of a 3x4 or 4x4 matrix, row by row, all finite: with the rotation nearest to the one
+/// written; none if the matrix is no rotation within the digits that files carry.
+std::optional<SE3> pose_from_rows(const std::vector<double>& rows);
 
 /// TUM format, 9 decimals, stamps as StampedPose::stamp(); written beside and renamed. An empty trajectory gives a file
 /// with a comment line only.

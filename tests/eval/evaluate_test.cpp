@@ -98,55 +98,6 @@ TEST(ExpectedFrames, CountTheImagesACameraWouldHaveTaken) {
   EXPECT_EQ(expected_frames({}, truth), 300U);
 }
 
-TEST(AlignPoints, FindsTheSimilarityThatWasApplied) {
-  Random random(1);
-  const SE3 T = SE3::exp((Vector6d() << 1, -2, 3, 0.5, 2.0, -1.0).finished());
-  std::vector<Eigen::Vector3d> source;
-  std::vector<Eigen::Vector3d> target;
-  for (int i = 0; i < 50; ++i) {
-    source.emplace_back(random.normal(), random.normal(), random.normal());
-    target.emplace_back(2.5 * (T.rotation() * source.back()) + T.translation());
-  }
-  const Similarity S = align_points(source, target, true);
-  EXPECT_NEAR(S.scale, 2.5, 1e-12);
-  EXPECT_LT((S.T_target_source.inverse() * T).log().norm(), 1e-12);
-  EXPECT_EQ(align_points(source, target, false).scale, 1.0);
-}
-
-TEST(AlignPoints, IsTheBestRigidMotionEvenForMirroredPoints) {
-  // A reflection would fit exactly; the best rotation must still be a rotation and no small turn may improve it.
-  Random random(2);
-  std::vector<Eigen::Vector3d> source;
-  std::vector<Eigen::Vector3d> target;
-  for (int i = 0; i < 30; ++i) {
-    source.emplace_back(3.0 * random.normal(), random.normal(), 0.5 * random.normal());
-    target.emplace_back(source.back().x(), source.back().y(), -source.back().z());
-  }
-  const auto cost = [&](const Similarity& S) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < source.size(); ++i) sum += (S * source[i] - target[i]).squaredNorm();
-    return sum;
-  };
-  const Similarity S = align_points(source, target, false);
-  EXPECT_NEAR(S.T_target_source.rotation_matrix().determinant(), 1.0, 1e-12);
-  for (int axis = 0; axis < 6; ++axis) {
-    for (const double step : {-1e-3, 1e-3}) {
-      Similarity moved = S;
-      moved.T_target_source = SE3::exp(step * Vector6d::Unit(axis)) * S.T_target_source;
-      EXPECT_GT(cost(moved), cost(S));
-    }
-  }
-}
-
-TEST(AlignPoints, RefusesWhatLeavesTheRotationOpen) {
-  std::vector<Eigen::Vector3d> line;
-  for (int i = 0; i < 10; ++i) line.emplace_back(0.1 * i, 0.2 * i, 5.0);
-  EXPECT_THROW(align_points(line, line, false), InputError);
-  const std::vector<Eigen::Vector3d> place(10, Eigen::Vector3d(1, 2, 3));
-  EXPECT_THROW(align_points(place, place, true), InputError);
-  EXPECT_THROW(align_points({{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}, false), InputError);
-}
-
 TEST(Evaluate, TheTruthItselfHasNoError) {
   for (const TrajectoryAlignment alignment :
        {TrajectoryAlignment::none, TrajectoryAlignment::se3, TrajectoryAlignment::sim3}) {

@@ -9,11 +9,14 @@
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/camera_file.hpp"
 #include "odosplat/io/cloud_file.hpp"
+#include "odosplat/io/colmap_model.hpp"
 #include "odosplat/io/image_container.hpp"
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/list_file.hpp"
 #include "odosplat/io/natural_order.hpp"
+#include "odosplat/io/similarity_file.hpp"
 #include "odosplat/io/trajectory_file.hpp"
+#include "odosplat/io/transforms_file.hpp"
 #include "odosplat/io/undistort.hpp"
 
 namespace odosplat::fuzz {
@@ -42,6 +45,30 @@ void demand_order(const Trajectory& trajectory) {
     demand(trajectory[i].T_world_camera.is_finite(), "poses are finite");
     demand(i == 0 || trajectory[i].time >= trajectory[i - 1].time, "times do not go back");
   }
+}
+
+void demand_camera(const CameraFile& file) {
+  file.camera.check();
+  demand(file.distortion.empty() || file.distortion.size() == 4 || file.distortion.size() == 5, "4 or 5 coefficients");
+}
+
+void demand_cameras(const ColmapCameras& cameras) {
+  demand(!cameras.empty(), "a model has cameras");
+  for (const auto& [id, camera] : cameras) demand_camera(camera);
+}
+
+void demand_images(const std::vector<ColmapImage>& images) {
+  demand(!images.empty(), "a model has images");
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    demand(images[i].T_world_camera.is_finite(), "poses are finite");
+    demand(i == 0 || natural_less(images[i - 1].name, images[i].name), "names ascend");
+  }
+}
+
+void demand_points(const PointCloud& cloud) {
+  demand(cloud.colors.size() == cloud.size(), "a colour each");
+  for (const Eigen::Vector3f& p : cloud.points) demand(p.allFinite(), "points are finite");
+  for (const Eigen::Vector3f& c : cloud.colors) demand(c.minCoeff() >= 0.0F && c.maxCoeff() <= 1.0F, "colours 0..1");
 }
 
 }  // namespace
@@ -112,6 +139,36 @@ void sequence_lists(const std::string& bytes) {
     for (const ListedPair& pair : parse_pair_list("fuzz", bytes)) {
       demand(!pair.color_path.empty() && !pair.depth_path.empty(), "a pair has two paths");
     }
+  });
+}
+
+void colmap_text(const std::string& bytes) {
+  read_or_refuse([&] { demand_cameras(parse_colmap_cameras_text("fuzz", bytes)); });
+  read_or_refuse([&] { demand_images(parse_colmap_images_text("fuzz", bytes)); });
+  read_or_refuse([&] { demand_points(parse_colmap_points_text("fuzz", bytes)); });
+  read_or_refuse([&] {
+    const PointPairs pairs = parse_point_pairs("fuzz", bytes);
+    demand(pairs.source.size() == pairs.target.size(), "pairs have two ends");
+  });
+  read_or_refuse([&] { demand(parse_similarity("fuzz", bytes).scale > 0.0, "a scale is positive"); });
+}
+
+void colmap_binary(const std::string& bytes) {
+  read_or_refuse([&] { demand_cameras(parse_colmap_cameras_binary("fuzz", bytes)); });
+  read_or_refuse([&] { demand_images(parse_colmap_images_binary("fuzz", bytes)); });
+  read_or_refuse([&] { demand_points(parse_colmap_points_binary("fuzz", bytes)); });
+}
+
+void transforms(const std::string& bytes) {
+  read_or_refuse([&] {
+    const TransformsFile file = parse_transforms("fuzz", bytes);
+    demand(!file.frames.empty(), "there are frames");
+    demand(file.depth_scale > 0.0, "depth_scale is positive");
+    for (const TransformsFrame& frame : file.frames) {
+      demand(!frame.color.empty(), "a frame has an image");
+      demand(frame.T_world_camera.is_finite(), "poses are finite");
+    }
+    demand_camera(file.camera.camera("fuzz", {640, 480}));
   });
 }
 

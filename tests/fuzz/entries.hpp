@@ -13,5 +13,8 @@ void ply(const std::string& bytes);
 void trajectory(const std::string& bytes);
 void camera_file(const std::string& bytes);
 void sequence_lists(const std::string& bytes);
+void colmap_text(const std::string& bytes);
+void colmap_binary(const std::string& bytes);
+void transforms(const std::string& bytes);
 
 }  // namespace odosplat::fuzz

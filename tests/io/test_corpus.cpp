@@ -38,11 +38,12 @@ TEST_P(Corpus, EverySeedAndEveryCutOfItIsReadOrRefused) {
   EXPECT_GT(seeds, 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Corpus,
-                         testing::Values(Target{"image", fuzz::image}, Target{"ply", fuzz::ply},
-                                         Target{"trajectory", fuzz::trajectory},
-                                         Target{"camera_file", fuzz::camera_file},
-                                         Target{"sequence_lists", fuzz::sequence_lists}));
+INSTANTIATE_TEST_SUITE_P(
+    All, Corpus,
+    testing::Values(Target{"image", fuzz::image}, Target{"ply", fuzz::ply}, Target{"trajectory", fuzz::trajectory},
+                    Target{"camera_file", fuzz::camera_file}, Target{"sequence_lists", fuzz::sequence_lists},
+                    Target{"colmap_text", fuzz::colmap_text}, Target{"colmap_binary", fuzz::colmap_binary},
+                    Target{"transforms", fuzz::transforms}));
 
 }  // namespace
 }  // namespace odosplat

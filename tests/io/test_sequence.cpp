@@ -459,7 +459,8 @@ TEST(SequenceOpen, SaysWhatItKnows) {
   EXPECT_EQ(error_of([&] { Sequence::open(temp / "none"); }), temp / "none" + ": is missing");
   const std::string unknown = error_of([&] { Sequence::open(temp.path()); });
   EXPECT_THAT(unknown, StartsWith(temp.path() + ": no known layout"));
-  for (const char* layout : {"tum", "icl", "redwood", "sevenscenes", "replica", "images", "video"}) {
+  for (const char* layout :
+       {"tum", "icl", "redwood", "sevenscenes", "replica", "colmap", "nerfstudio", "images", "video"}) {
     EXPECT_THAT(unknown, HasSubstr(layout));
     SequenceOptions options;
     options.layout = layout;

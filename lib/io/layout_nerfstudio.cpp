@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+// transforms.json as nerfstudio (Tancik et al., SIGGRAPH 2023) and instant-ngp use it.
+#include <filesystem>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/cloud_file.hpp"
+#include "odosplat/io/image_file.hpp"
+#include "odosplat/io/layouts.hpp"
+#include "odosplat/io/transforms_file.hpp"
+
+namespace odosplat {
+namespace {
+
+namespace fs = std::filesystem;
+
+// SEQ/transforms.json, or SEQ itself: transforms_train.json and the like.
+std::string transforms_of(const std::string& path) {
+  return is_transforms(path) ? path : join(path, "transforms.json");
+}
+
+// Synthetic sets leave the extension out.
+std::string image_file(const std::string& folder, const std::string& written) {
+  const std::string file = (fs::path(folder) / written).lexically_normal().string();
+  return is_image_name(file) || file_exists(file) ? file : file + ".png";
+}
+
+}  // namespace
+
+bool is_transforms(const std::string& path) { return extension_of(path) == ".json" && file_exists(path); }
+bool is_nerfstudio(const std::string& path) { return file_exists(transforms_of(path)); }
+
+SequenceIndex index_nerfstudio(const std::string& path, const SequenceOptions& options) {
+  const std::string file = transforms_of(path);
+  const TransformsFile transforms = parse_transforms(file, read_file(file));
+  const std::string folder = fs::path(file).parent_path().string();
+  SequenceIndex index;
+  NumberedFiles files;
+  for (std::size_t i = 0; i < transforms.frames.size(); ++i) {
+    const TransformsFrame& frame = transforms.frames[i];
+    const auto number = static_cast<long long>(i);
+    files.color[number] = image_file(folder, frame.color);
+    if (!frame.depth.empty()) files.depth[number] = image_file(folder, frame.depth);
+    files.poses[number] = frame.T_world_camera;
+  }
+  cv::Size size;
+  if (!transforms.camera.has_size()) size = read_image_size(files.color[0]);
+  CameraFile camera = transforms.camera.camera(file, size);
+  camera.depth_scale = transforms.depth_scale;
+  choose_camera(options, {folder}, camera, file, camera.depth_scale, index);
+  fill_numbered(files, index);
+  if (!transforms.points.empty()) {
+    const std::string points = (fs::path(folder) / transforms.points).lexically_normal().string();
+    if (file_exists(points)) index.sparse_points = {points, read_point_cloud};
+  }
+  return index;
+}
+
+}  // namespace odosplat
