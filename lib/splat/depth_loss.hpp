@@ -7,7 +7,7 @@
 namespace odosplat {
 
 struct DepthLossOptions {
-  double weight = 0.5;  // of the term beside the image loss, >= 0; 0: no depth term
+  double weight = 2.0;  // of the term beside the image loss, >= 0; 0: no depth term
   double cut = 0.05;    // relative difference beyond which another surface is meant and nothing pulls, > 0.001
 
   /// Throws InputError naming the field.

@@ -13,7 +13,7 @@ namespace odosplat {
 /// number; 0: the term is off.
 struct SurfaceTermsOptions {
   double place_weight = 0.0;    // of the squared height above the anchor's plane, in the disc's sizes
-  double normal_weight = 0.0;   // of 1 - cos^2 between the disc's axis and the anchor's normal
+  double normal_weight = 1.0;   // of 1 - cos^2 between the disc's axis and the anchor's normal
   double flatten_weight = 0.0;  // of thickness over size (third axis over the geometric mean of the others)
 
   bool any() const { return place_weight > 0.0 || normal_weight > 0.0 || flatten_weight > 0.0; }

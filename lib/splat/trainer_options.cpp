@@ -113,7 +113,7 @@ TrainerOptions TrainerOptions::preset(const std::string& name) {
   options.keep_thickness = false;
   options.largest_growth = 0.0;
   options.depth.weight = 0.0;
-  options.surface = {};
+  options.surface = {0.0, 0.0, 0.0};
   options.exposure.rate = 0.0;
   options.densify.method = DensifyMethod::split;
   options.densify.until_share = 0.5;

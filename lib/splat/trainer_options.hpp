@@ -32,17 +32,17 @@ struct TrainerOptions {
 
   PositionLength position_length = PositionLength::gaussian_size;
   // Adam rates a step at the start. Those not given in units are of the attribute as it is stored.
-  double position_rate = 2e-3;        // [position lengths]
-  double position_rate_final = 2e-5;  // [position lengths] reached log-linearly at the last step
+  double position_rate = 5e-3;        // [position lengths]
+  double position_rate_final = 5e-5;  // [position lengths] reached log-linearly at the last step
   double scale_rate = 5e-3;           // of log scales
-  double rotation_rate = 0.0;         // of quaternions; discs that tilt lift depth towards the camera
+  double rotation_rate = 1e-3;        // of quaternions; normal_weight keeps discs from tilting towards the camera
   double opacity_rate = 2e-2;         // of opacity logits
   double color_rate = 1e-2;           // of SH of degree 0
   double sh_rate = 5e-4;              // of the other SH
   double final_share = 0.1;           // all rates but that of positions fall log-linearly to this share of theirs, 0..1
   bool keep_thickness = true;         // the third axis (of discs: across the surface) is left as it is
 
-  double largest_growth = 1.5;  // no axis grows beyond this many times its start (silhouettes), >= 1; 0: no limit
+  double largest_growth = 3.0;  // no axis grows beyond this many times its start (silhouettes), >= 1; 0: no limit
 
   LossOptions loss;
   DepthLossOptions depth;       // used where the trainer is given a surface
