@@ -13,6 +13,8 @@
 namespace odosplat {
 namespace {
 
+const std::string appended = "/process_time/real_time";  // to every name, by the library
+
 template <typename Base>
 class PlainNames : public Base {
  public:
@@ -28,13 +30,21 @@ class PlainNames : public Base {
 void run_benchmarks(int argc, char** argv) {
   bool json = false;
   bool file = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string flag = argv[i];
+  std::vector<std::string> flags(argv, argv + argc);
+  for (std::string& flag : flags) {
     json = json || flag == "--benchmark_format=json";
     file = file || flag.rfind("--benchmark_out=", 0) == 0;
+    // A filter that ends a name means the name as it is reported.
+    if (flag.rfind("--benchmark_filter=", 0) == 0 && flag.back() == '$') {
+      flag.pop_back();
+      flag += appended + "$";
+    }
   }
-  benchmark::Initialize(&argc, argv);
-  if (argc > 1) throw InputError(argv[1], "unknown flag");
+  std::vector<char*> pointers;
+  for (std::string& flag : flags) pointers.push_back(flag.data());
+  pointers.push_back(nullptr);
+  benchmark::Initialize(&argc, pointers.data());
+  if (argc > 1) throw InputError(pointers[1], "unknown flag");
   PlainNames<benchmark::ConsoleReporter> table;
   PlainNames<benchmark::JSONReporter> text, out;
   benchmark::BenchmarkReporter* display = &table;

@@ -57,6 +57,24 @@ TEST_P(RasterForward, EqualsTwinOnAllScenes) {
   }
 }
 
+// Thin ellipses over many tiles: some rows of tiles hold no pixel centre of theirs although they pass through.
+TEST_P(RasterForward, NeedlesOverManyTilesEqualTwin) {
+  RasterScene scene = needle_scene();
+  scene.camera = {150, 118, 160.0, 172.0, 70.7, 60.9};
+  Rasterizer rasterizer = make_rasterizer(GetParam());
+  RenderRequest request;
+  request.color = true;
+  const HostImages images = render(rasterizer, test_context(), scene, request);
+  const reference::Images truth =
+      reference::composite(reference::project(reference::Scene(scene.gaussians), scene.camera, scene.T_world_camera,
+                                              rasterizer.options(), request),
+                           scene.camera, request);
+  EXPECT_LE(share_in_band(truth.margin), band_share);
+  EXPECT_EQ(count_different(truth.alpha, images.alpha, truth.margin, band, 1e-4), 0u);
+  EXPECT_EQ(count_different(truth.depth, images.depth, truth.margin, band, 5e-4), 0u);
+  EXPECT_EQ(count_different(truth.color, images.color, truth.margin, band, 2e-4), 0u);
+}
+
 TEST_P(RasterForward, CentreDepthEqualsTwin) {
   Rasterizer rasterizer = make_rasterizer(GetParam(), false, DepthKind::centre);
   const RasterScene scene = overlapping_scene(200, 0, 3);
