@@ -13,6 +13,7 @@
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/list_file.hpp"
 #include "odosplat/io/natural_order.hpp"
+#include "odosplat/io/ply.hpp"
 #include "odosplat/io/trajectory_file.hpp"
 #include "odosplat/io/undistort.hpp"
 
@@ -70,7 +71,7 @@ void ply(const std::string& bytes) {
         demand(rows == element.count, "a column has as many rows as its element");
       }
     }
-    const PointCloud cloud = point_cloud_from_ply(parsed);
+    const PointCloud cloud = parse_point_cloud("fuzz.ply", bytes);
     demand(cloud.size() > 0, "a cloud has points");
     for (const Eigen::Vector3f& p : cloud.points) demand(p.allFinite(), "points are finite");
     for (const Eigen::Vector3f& c : cloud.colors) demand(c.minCoeff() >= 0.0F && c.maxCoeff() <= 1.0F, "colours 0..1");
