@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
-#include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/cloud_scan.hpp"
 #include "odosplat/io/ply.hpp"
@@ -18,28 +16,13 @@ namespace {
 using Names = std::array<const char*, 3>;
 using Vectors = std::vector<Eigen::Vector3f>;
 
-constexpr double max_rounding = 1e-3;  // [m]
-
-Eigen::Vector3f rounded(const Eigen::Vector3d& point, const std::string& name) {
-  Eigen::Vector3f single = point.cast<float>();
-  const double error = (single.cast<double>() - point).cwiseAbs().maxCoeff();
-  if (error <= max_rounding) return single;
-  char text[200];
-  std::snprintf(
-      text, sizeof(text),
-      "is too far from the origin: a point at %.2f %.2f %.2f would move by %.0f mm in single precision; bring "
-      "it near with `odosplat cloud --from FILE --origin X Y Z`",
-      point.x(), point.y(), point.z(), 1e3 * error);
-  throw InputError(name, text);
-}
-
 // Makes a cloud of batches: colours and normals are all or nothing.
 class Collector {
  public:
   explicit Collector(const std::string& name) : name_(name) {}
 
   void add(const CloudBatch& batch) {
-    for (const Eigen::Vector3d& point : batch.points) cloud_.points.push_back(rounded(point, name_));
+    for (const Eigen::Vector3d& point : batch.points) cloud_.points.push_back(round_point(name_, point));
     cloud_.colors.insert(cloud_.colors.end(), batch.colors.begin(), batch.colors.end());
     cloud_.normals.insert(cloud_.normals.end(), batch.normals.begin(), batch.normals.end());
   }

@@ -27,7 +27,8 @@ double load_value(const char* bytes, const PcdField& field) {
     case 2:
       return is_signed ? load_little<std::int16_t>(bytes) : load_little<std::uint16_t>(bytes);
     case 4:
-      return is_signed ? load_little<std::int32_t>(bytes) : load_little<std::uint32_t>(bytes);
+      return is_signed ? static_cast<double>(load_little<std::int32_t>(bytes))
+                       : static_cast<double>(load_little<std::uint32_t>(bytes));
     default:
       return is_signed ? static_cast<double>(load_little<std::int64_t>(bytes))
                        : static_cast<double>(load_little<std::uint64_t>(bytes));

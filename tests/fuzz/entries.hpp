@@ -13,5 +13,9 @@ void ply(const std::string& bytes);
 void trajectory(const std::string& bytes);
 void camera_file(const std::string& bytes);
 void sequence_lists(const std::string& bytes);
+void pcd(const std::string& bytes);
+void las(const std::string& bytes);
+void cloud_text(const std::string& bytes);
+void gaussians(const std::string& bytes);  // .splat and PLY; in gaussian_entries.cpp
 
 }  // namespace odosplat::fuzz

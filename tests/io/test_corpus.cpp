@@ -42,7 +42,8 @@ INSTANTIATE_TEST_SUITE_P(All, Corpus,
                          testing::Values(Target{"image", fuzz::image}, Target{"ply", fuzz::ply},
                                          Target{"trajectory", fuzz::trajectory},
                                          Target{"camera_file", fuzz::camera_file},
-                                         Target{"sequence_lists", fuzz::sequence_lists}));
+                                         Target{"sequence_lists", fuzz::sequence_lists}, Target{"pcd", fuzz::pcd},
+                                         Target{"las", fuzz::las}, Target{"cloud_text", fuzz::cloud_text}));
 
 }  // namespace
 }  // namespace odosplat
