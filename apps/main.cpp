@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   apps::add_devices(app, common);
   apps::add_check(app, common);
   apps::add_cloud(app, common);
+  apps::add_convert(app, common);
   apps::add_train(app, common);
   apps::add_render(app, common);
   apps::add_track(app, common);

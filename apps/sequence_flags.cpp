@@ -6,11 +6,13 @@
 
 namespace odosplat::apps {
 
-void add_sequence_flags(CLI::App* command, SequenceFlags& flags) {
-  command->add_option("SEQ", flags.path, "sequence: a folder in one of the known layouts, or a video")->required();
+CLI::Option* add_sequence_flags(CLI::App* command, SequenceFlags& flags) {
+  CLI::Option* sequence =
+      command->add_option("SEQ", flags.path, "sequence: a folder in one of the known layouts, or a video")->required();
   command->add_option("--layout", flags.options.layout,
                       "tum, icl, redwood, sevenscenes, replica, images or video (default: detected)");
   command->add_option("--camera", flags.options.camera_file, "camera.yaml to use instead of the sequence's own");
+  return sequence;
 }
 
 Sequence open_sequence(const SequenceFlags& flags) { return Sequence::open(flags.path, flags.options); }

@@ -15,6 +15,8 @@ struct TrainJob {
   std::vector<std::string> sequences;  // in one world frame
   SequenceOptions sequence_options;
   std::string cloud;
+  double voxel = 0.0;            // [m] edge of the voxels that thin the cloud; 0: as it is
+  bool remove_outliers = false;  // of the cloud
   std::string out;
   std::string report;  // JSON; empty: none
   int every = 10;
