@@ -3,8 +3,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "cloud_files.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/progress.hpp"
+#include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/cloud_file.hpp"
 #include "odosplat/io/sequence.hpp"
 #include "odosplat/map/cloud_builder.hpp"
@@ -16,12 +18,15 @@ namespace {
 
 struct CloudFlags {
   SequenceFlags sequence;
+  std::vector<std::string> from;
+  std::vector<double> origin{0.0, 0.0, 0.0};
   std::string out;
   int every = 10;
+  bool remove_outliers = false;
   CloudOptions cloud;
 };
 
-void run(const CloudFlags& flags) {
+PointCloud cloud_of_sequence(const CloudFlags& flags) {
   const Sequence sequence = open_sequence(flags.sequence);
   const std::vector<std::size_t> frames = posed_frames(sequence, flags.every);
   CloudBuilder builder(flags.cloud);
@@ -35,23 +40,52 @@ void run(const CloudFlags& flags) {
     progress.update(++done, std::to_string(builder.voxels()) + " points");
   }
   progress.finish();
-  const PointCloud cloud = builder.finish();
+  PointCloud cloud = builder.finish();
   if (cloud.size() == 0) throw InputError(flags.sequence.path, "no frame has both a pose and depth");
-  write_point_cloud(flags.out, cloud);
-  std::printf("%s: %zu points from %zu frames\n", flags.out.c_str(), cloud.size(), frames.size());
+  return cloud;
+}
+
+std::vector<std::string> notes_of(const Eigen::Vector3d& origin) {
+  if (origin.isZero(0.0)) return {};
+  char text[120];
+  std::snprintf(text, sizeof(text), "origin taken off %.15g %.15g %.15g", origin.x(), origin.y(), origin.z());
+  return {text};
+}
+
+void run(const CloudFlags& flags) {
+  if (flags.sequence.path.empty() && flags.from.empty()) throw InputError("SEQ", "or --from is needed");
+  ensure_output_file(flags.out);
+  const Eigen::Vector3d origin(flags.origin[0], flags.origin[1], flags.origin[2]);
+  PointCloud cloud =
+      flags.from.empty() ? cloud_of_sequence(flags) : read_thinned(flags.from, flags.cloud.voxel, origin);
+  if (flags.remove_outliers) cloud = without_outliers(cloud);
+  write_point_cloud(flags.out, cloud, notes_of(origin));
+  std::printf("%s: %zu points\n", flags.out.c_str(), cloud.size());
 }
 
 }  // namespace
 
 void add_cloud(CLI::App& app, Common& common) {
-  CLI::App* command = add_command(app, common, "cloud", "make a point cloud from a sequence's depth and true poses");
+  CLI::App* command = add_command(app, common, "cloud",
+                                  "make a point cloud from a sequence's depth and true poses, or from other clouds");
   auto flags = std::make_shared<CloudFlags>();
-  add_sequence_flags(command, flags->sequence);
+  CLI::Option* sequence = add_sequence_flags(command, flags->sequence)->required(false);
+  CLI::Option* from = command->add_option("--from", flags->from,
+                                          std::string(cloud_formats) + " to thin instead; may be given several times");
+  from->excludes(sequence)->expected(1)->take_all();
+  for (const char* of_sequence : {"--layout", "--camera"}) from->excludes(command->get_option(of_sequence));
   command->add_option("--out", flags->out, "cloud to write (PLY)")->required();
-  command->add_option("--every", flags->every, "use every Nth frame")->check(CLI::PositiveNumber);
-  command->add_option("--voxel", flags->cloud.voxel, "edge of the voxels that keep one point each [m]");
-  command->add_option("--noise", flags->cloud.noise, "standard deviation of simulated range noise [m]");
-  command->add_option("--seed", flags->cloud.seed, "seed of the noise");
+  from->excludes(command->add_option("--every", flags->every, "use every Nth frame")->check(CLI::PositiveNumber));
+  command->add_option("--voxel", flags->cloud.voxel, "edge of the voxels that keep one point each, their mean [m]");
+  command
+      ->add_option("--origin", flags->origin,
+                   "X Y Z [m] taken off every point of --from before it is rounded to single precision, to bring "
+                   "survey coordinates near; take the same off the poses")
+      ->expected(3)
+      ->needs(from);
+  command->add_flag("--remove-outliers", flags->remove_outliers, outliers_help);
+  from->excludes(command->add_option("--noise", flags->cloud.noise, "standard deviation of simulated range noise [m]"));
+  from->excludes(command->add_option("--seed", flags->cloud.seed, "seed of the noise"));
   command->final_callback([flags] { run(*flags); });
 }
 

@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   apps::add_check(app, common);
   apps::add_cloud(app, common);
   apps::add_align(app, common);
+  apps::add_convert(app, common);
   apps::add_train(app, common);
   apps::add_render(app, common);
   apps::add_track(app, common);

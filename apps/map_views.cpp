@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "cloud_files.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/cloud_file.hpp"
 #include "odosplat/map/interpolation_view.hpp"
@@ -27,10 +28,10 @@ constexpr float sh_constant = 0.28209479F;
 }  // namespace
 
 void add_map_flags(CLI::App* command, MapFlags& flags) {
-  command->add_option("--map", flags.map, "map of Gaussians (PLY, as train writes it)");
+  command->add_option("--map", flags.map, "map of Gaussians (PLY, as train writes it, or .splat)");
   command->add_option("--depth", flags.depth,
                       "what the depth of a pixel is: surface, expected, median or blended (default: the method's)");
-  command->add_option("--cloud", flags.cloud, "point cloud (PLY)");
+  command->add_option("--cloud", flags.cloud, cloud_formats);
 }
 
 OpenedView open_view(const Common& common, const std::string& method, const MapFlags& flags) {

@@ -6,9 +6,11 @@
 
 namespace odosplat::apps {
 
-void add_sequence_flags(CLI::App* command, SequenceFlags& flags) {
-  command->add_option("SEQ", flags.path, "sequence: a folder in one of the known layouts, or a video")->required();
+CLI::Option* add_sequence_flags(CLI::App* command, SequenceFlags& flags) {
+  CLI::Option* sequence =
+      command->add_option("SEQ", flags.path, "sequence: a folder in one of the known layouts, or a video")->required();
   add_layout_flags(command, flags);
+  return sequence;
 }
 
 void add_layout_flags(CLI::App* command, SequenceFlags& flags) {

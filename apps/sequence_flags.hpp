@@ -17,8 +17,8 @@ struct SequenceFlags {
   SequenceOptions options;
 };
 
-/// Declares SEQ, --layout and --camera.
-void add_sequence_flags(CLI::App* command, SequenceFlags& flags);
+/// Declares SEQ (returned), --layout and --camera.
+CLI::Option* add_sequence_flags(CLI::App* command, SequenceFlags& flags);
 
 /// --layout and --camera alone, where the sequence has a flag of its own.
 void add_layout_flags(CLI::App* command, SequenceFlags& flags);

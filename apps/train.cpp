@@ -8,11 +8,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cloud_files.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
-#include "odosplat/io/cloud_file.hpp"
 #include "odosplat/map/interpolation_view.hpp"
 #include "odosplat/splat/cloud_colors.hpp"
 #include "odosplat/splat/map_file.hpp"
@@ -155,7 +155,7 @@ TrainingReport train_map(const Common& common, const TrainJob& job) {
   ensure_output_file(job.out);
   if (!job.report.empty()) ensure_output_file(job.report);
   SequenceViews views(job);
-  PointCloud cloud = read_point_cloud(job.cloud);
+  PointCloud cloud = read_cloud(job.cloud, job.voxel, job.remove_outliers);
   if (!cloud.has_colors()) color_from_views(cloud, views);
   const compute::Context device = open_device(common);
   const Gaussians start = gaussians_from_cloud(cloud, initial);
@@ -186,8 +186,10 @@ void add_train(CLI::App& app, Common& common) {
   command->add_option("SEQ", job->sequences, "sequences in one world frame")->required();
   command->add_option("--layout", job->sequence_options.layout, "layout of the sequences (default: detected)");
   command->add_option("--camera", job->sequence_options.camera_file, "camera.yaml to use instead of their own");
-  command->add_option("--cloud", job->cloud, "point cloud (PLY)")->required();
-  command->add_option("--out", job->out, "map to write (PLY)")->required();
+  command->add_option("--cloud", job->cloud, cloud_formats)->required();
+  command->add_option("--voxel", job->voxel, "thin the cloud to one point a voxel of this edge [m], 0 = as it is");
+  command->add_flag("--remove-outliers", job->remove_outliers, outliers_help);
+  command->add_option("--out", job->out, "map to write (PLY, or .splat)")->required();
   command->add_option("--every", job->every, "train on every Nth frame")->check(CLI::PositiveNumber);
   command->add_option("--preset", job->preset, "default, or paper (the recipe of the paper's code)");
   command->add_option("--iterations", job->iterations, "steps of one image each (default: the preset's)");

@@ -15,16 +15,18 @@ struct TrainJob {
   std::vector<std::string> sequences;  // in one world frame
   SequenceOptions sequence_options;
   std::string cloud;
+  double voxel = 0.0;            // [m] edge of the voxels that thin the cloud; 0: as it is
+  bool remove_outliers = false;  // of the cloud
   std::string out;
   std::string report;  // JSON; empty: none
   int every = 10;
   std::string preset = "default";
   int iterations = -1;  // < 0: the preset's
   std::uint64_t seed = 42;
-  std::size_t budget = 0;  // Gaussians, 0: one a point
-  std::string densify;     // empty: the preset's
-  std::string exposure;    // on, off; empty: the preset's
-  int sh_degree = -1;      // < 0: the preset's
+  std::size_t budget = 0;      // Gaussians, 0: one a point
+  std::string densify;         // empty: the preset's
+  std::string exposure;        // on, off; empty: the preset's
+  int sh_degree = -1;          // < 0: the preset's
   double depth_weight = -1.0;  // < 0: the preset's
   int checkpoint_every = 500;  // iterations, 0: never
   bool resume = false;

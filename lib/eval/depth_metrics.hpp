@@ -32,7 +32,8 @@ class DepthMetrics {
 
   /// estimate and truth [m], 0 = none; only pixels where mask is not 0 count (an empty mask: all). sigma [m]: standard
   /// deviation of the estimate, 0 = unknown (an empty image: everywhere). Throws InputError if sizes differ.
-  void add(const DepthImage& estimate, const DepthImage& truth, const cv::Mat1b& mask = {}, const cv::Mat1f& sigma = {});
+  void add(const DepthImage& estimate, const DepthImage& truth, const cv::Mat1b& mask = {},
+           const cv::Mat1f& sigma = {});
 
   /// All 0 if there was no truth.
   DepthErrors result() const;

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
 
-#include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/io/cloud_scan.hpp"
+#include "odosplat/io/ply.hpp"
 
 namespace odosplat {
 namespace {
@@ -17,82 +16,34 @@ namespace {
 using Names = std::array<const char*, 3>;
 using Vectors = std::vector<Eigen::Vector3f>;
 
-Vectors interleave(const Ply& ply, const Names& names) {
-  Vectors vectors(ply.element("vertex").count);
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::vector<float> column = ply.column<float>("vertex", names[static_cast<std::size_t>(axis)]);
-    for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i][axis] = column[i];
+// Makes a cloud of batches: colours and normals are all or nothing.
+class Collector {
+ public:
+  explicit Collector(const std::string& name) : name_(name) {}
+
+  void add(const CloudBatch& batch) {
+    for (const Eigen::Vector3d& point : batch.points) cloud_.points.push_back(round_point(name_, point));
+    cloud_.colors.insert(cloud_.colors.end(), batch.colors.begin(), batch.colors.end());
+    cloud_.normals.insert(cloud_.normals.end(), batch.normals.begin(), batch.normals.end());
   }
-  return vectors;
-}
 
-std::optional<Names> first_complete(const PlyElement& vertex, std::initializer_list<Names> choices) {
-  for (const Names& names : choices) {
-    if (std::all_of(names.begin(), names.end(), [&](const char* name) { return vertex.has(name); })) return names;
-  }
-  return std::nullopt;
-}
-
-// The value of full colour: unsigned integers use their range; floats see the header.
-float full_scale(const PlyColumn& column) {
-  return std::visit(
-      [](const auto& values) -> float {
-        using T = typename std::decay_t<decltype(values)>::value_type;
-        if constexpr (std::is_floating_point_v<T>) {
-          return std::any_of(values.begin(), values.end(), [](T v) { return v > T{1}; }) ? 255.0F : 1.0F;
-        } else if constexpr (std::is_same_v<T, std::uint16_t>) {
-          return 65535.0F;
-        } else {
-          return 255.0F;
-        }
-      },
-      column);
-}
-
-Vectors read_colors(const Ply& ply, const Names& names) {
-  const PlyElement& vertex = ply.element("vertex");
-  float scale = 0.0F;
-  for (const char* name : names) scale = std::max(scale, full_scale(*vertex.find(name)));
-  Vectors colors = interleave(ply, names);
-  for (std::size_t i = 0; i < colors.size(); ++i) {
-    if (!colors[i].allFinite() || colors[i].minCoeff() < 0.0F) {
-      throw InputError(ply.file, "vertex " + std::to_string(i + 1), "its colour is no colour");
+  PointCloud finish() {
+    const auto without = static_cast<std::size_t>(
+        std::count_if(cloud_.normals.begin(), cloud_.normals.end(), [](const auto& n) { return n.isZero(0.0F); }));
+    if (without > 0) {
+      if (without < cloud_.size()) {
+        log_warning(name_ + ": " + std::to_string(without) + " of " + std::to_string(cloud_.size()) +
+                    " points have no normal; all normals are left out");
+      }
+      cloud_.normals = {};
     }
-    colors[i] = (colors[i] / scale).cwiseMin(1.0F);
+    return std::move(cloud_);
   }
-  return colors;
-}
 
-Vectors read_normals(const Ply& ply, const Names& names, const std::vector<bool>& kept) {
-  Vectors normals = interleave(ply, names);
-  std::size_t without = 0;
-  std::size_t points = 0;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    if (!kept[i]) continue;
-    ++points;
-    const float length = normals[i].norm();
-    if (!std::isfinite(length) || length < 1e-6F) {
-      ++without;
-    } else {
-      normals[i] /= length;
-    }
-  }
-  if (without == 0) return normals;
-  if (without < points) {
-    log_warning(ply.file + ": " + std::to_string(without) + " of " + std::to_string(points) +
-                " points have no normal; all normals are left out");
-  }
-  return {};
-}
-
-void keep_only(const std::vector<bool>& kept, Vectors& vectors) {
-  if (vectors.empty()) return;
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (kept[i]) vectors[n++] = vectors[i];
-  }
-  vectors.resize(n);
-}
+ private:
+  const std::string& name_;
+  PointCloud cloud_;
+};
 
 std::vector<float> axis_of(const Vectors& vectors, int axis) {
   std::vector<float> column(vectors.size());
@@ -111,35 +62,19 @@ std::vector<std::uint8_t> bytes_of(const Vectors& colors, int axis) {
 
 }  // namespace
 
-PointCloud point_cloud_from_ply(const Ply& ply) {
-  const PlyElement& vertex = ply.element("vertex");
-  PointCloud cloud;
-  cloud.points = interleave(ply, {"x", "y", "z"});
-  std::vector<bool> kept(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) kept[i] = cloud.points[i].allFinite();
-  const auto finite = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true));
-  if (finite == 0) throw InputError(ply.file, "holds no point");
-  if (finite < cloud.size()) {
-    log_warning(ply.file + ": " + std::to_string(cloud.size() - finite) + " of " + std::to_string(cloud.size()) +
-                " points are not finite and left out");
-  }
-  if (const auto names =
-          first_complete(vertex, {Names{"red", "green", "blue"}, Names{"diffuse_red", "diffuse_green", "diffuse_blue"},
-                                  Names{"r", "g", "b"}})) {
-    cloud.colors = read_colors(ply, *names);
-  }
-  if (const auto names = first_complete(vertex, {Names{"nx", "ny", "nz"}})) {
-    cloud.normals = read_normals(ply, *names, kept);
-  }
-  keep_only(kept, cloud.points);
-  keep_only(kept, cloud.colors);
-  keep_only(kept, cloud.normals);
-  return cloud;
+PointCloud read_point_cloud(const std::string& path) {
+  Collector collector(path);
+  scan_cloud(path, [&](const CloudBatch& batch) { collector.add(batch); });
+  return collector.finish();
 }
 
-PointCloud read_point_cloud(const std::string& path) { return point_cloud_from_ply(read_ply(path)); }
+PointCloud parse_point_cloud(const std::string& name, const std::string& bytes) {
+  Collector collector(name);
+  scan_cloud_bytes(name, bytes, [&](const CloudBatch& batch) { collector.add(batch); });
+  return collector.finish();
+}
 
-void write_point_cloud(const std::string& path, const PointCloud& cloud) {
+void write_point_cloud(const std::string& path, const PointCloud& cloud, const std::vector<std::string>& notes) {
   PlyElement vertex;
   vertex.name = "vertex";
   const Names axes{"x", "y", "z"};
@@ -154,6 +89,7 @@ void write_point_cloud(const std::string& path, const PointCloud& cloud) {
   }
   Ply ply;
   ply.comments = {"odosplat point cloud, metres"};
+  ply.comments.insert(ply.comments.end(), notes.begin(), notes.end());
   ply.elements = {std::move(vertex)};
   write_ply(path, ply);
 }

@@ -38,8 +38,9 @@ class MapView {
   virtual ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) = 0;
 
   /// The same at some pixels only (x: column, y: row), for consumers that use a few thousand of them: images of one
-  /// row, pixels.size() wide, in the order given; pixels may repeat. The values are those of render. This one renders everything and picks; views that can do
-  /// with less work override it. Throws InputError for a pixel outside the camera's image.
+  /// row, pixels.size() wide, in the order given; pixels may repeat. The values are those of render. This one renders
+  /// everything and picks; views that can do with less work override it. Throws InputError for a pixel outside the
+  /// camera's image.
   virtual ViewImages render_pixels(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request,
                                    const std::vector<cv::Point>& pixels);
 

@@ -5,14 +5,20 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <utility>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
+#include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/ply.hpp"
+#include "odosplat/io/ply_header.hpp"
+#include "odosplat/splat/splat_file.hpp"
 
 namespace odosplat {
 
@@ -58,10 +64,8 @@ Eigen::Vector3f shortest_axis(const Gaussians& gaussians, std::size_t i) {
   return q.normalized() * Eigen::Vector3f::Unit(std::min_element(scale, scale + 3) - scale);
 }
 
-}  // namespace
-
-Gaussians read_map(const std::string& path) {
-  const Ply ply = read_ply(path);
+Gaussians gaussians_from_ply(const Ply& ply) {
+  const std::string& path = ply.file;
   const PlyElement& vertex = ply.element(element_name);
   const auto rest = static_cast<std::size_t>(
       std::count_if(vertex.properties.begin(), vertex.properties.end(),
@@ -85,6 +89,46 @@ Gaussians read_map(const std::string& path) {
   return gaussians;
 }
 
+bool is_splat(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".splat";
+}
+
+void write_splat(const std::string& path, const Gaussians& gaussians) {
+  if (gaussians.sh_degree > 0) {
+    log_warning(path + ": .splat has no place for the colour's change with direction: harmonics of degree 1 to " +
+                std::to_string(gaussians.sh_degree) + " are left out");
+  }
+  write_file_atomically(path, splat_bytes(gaussians));
+}
+
+}  // namespace
+
+bool is_map_file(const std::string& path) {
+  if (is_splat(path)) return true;
+  std::ifstream in(path, std::ios::binary);
+  std::string magic(3, '\0');
+  in.read(magic.data(), 3);
+  if (magic != "ply") return false;
+  in.seekg(0);
+  for (const PlyHeaderElement& element : read_ply_header(path, in).elements) {
+    if (element.name != element_name) continue;
+    return std::any_of(element.properties.begin(), element.properties.end(),
+                       [](const PlyHeaderProperty& property) { return property.name == "f_dc_0"; });
+  }
+  return false;
+}
+
+Gaussians read_map(const std::string& path) {
+  return is_splat(path) ? parse_splat(path, read_file(path)) : gaussians_from_ply(read_ply(path));
+}
+
+Gaussians parse_map(const std::string& name, const std::string& bytes) {
+  return is_splat(name) ? parse_splat(name, bytes) : gaussians_from_ply(parse_ply(name, bytes));
+}
+
 SigmaModel read_sigma_model(const std::string& path) {
   constexpr int most_lines = 10000;  // of a header; a file that is no PLY need not end its lines
   const std::string comment = "comment ";
@@ -105,6 +149,10 @@ SigmaModel read_sigma_model(const std::string& path) {
 void write_map(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
   gaussians.check();
   if (gaussians.empty()) throw InputError(path, "there are no Gaussians to write");
+  if (is_splat(path)) {
+    write_splat(path, gaussians);
+    return;
+  }
   Ply ply;
   ply.file = path;
   ply.comments = {"odosplat map, format 1",

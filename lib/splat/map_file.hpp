@@ -10,24 +10,32 @@
 
 namespace odosplat {
 
-/// Reads Gaussians from a PLY file as 3D Gaussian Splatting programs write it (Kerbl et al. 2023), any encoding and any
-/// scalar types, properties in any order, of element `vertex`:
+/// Reads Gaussians from a .splat file (see splat_file.hpp) if the path ends so, else from a PLY file as 3D Gaussian
+/// Splatting programs write it (Kerbl et al. 2023), any encoding and any scalar types, properties in any order, of
+/// element `vertex`:
 ///   x y z [m], f_dc_0..2, f_rest_0..(3K - 4) channel after channel (all of red first), opacity (logit),
 ///   scale_0..2 (ln m), rot_0..3 (w x y z)
 /// with K = (degree + 1)^2 coefficients, degree 0..3. Other properties (nx ny nz) are ignored.
 /// Throws InputError naming the file and the fault: missing file or property, a number of f_rest that fits no degree, a
 /// value that is not finite (naming the Gaussian), no Gaussians, and what read_ply refuses.
 Gaussians read_map(const std::string& path);
+/// The same from memory; `name` stands for the file, its extension included.
+Gaussians parse_map(const std::string& name, const std::string& bytes);
+
+/// Whether the file holds Gaussians, by its name (.splat) or header (a PLY with colours f_dc_0), not its content. False
+/// if it cannot be read; InputError for a PLY whose header is broken.
+bool is_map_file(const std::string& path);
 
 /// How sure the map's depth is, from the header's comments "sigma_..." that training writes (SigmaModel::to_lines); the
 /// defaults where there are none (maps trained elsewhere, other formats). InputError if they are no numbers.
 SigmaModel read_sigma_model(const std::string& path);
 
-/// Writes that layout, binary little endian, floats, with nx ny nz = direction of the shortest axis (unit length, side
-/// arbitrary), so that readers of point clouds find normals. The header's comments name the format's version, the
-/// camera convention, and then the lines of `notes` (the training's settings; without line breaks).
-/// read_map() gives back the same bits. Written beside the path and renamed. Throws InputError if the path cannot be
-/// written, or if there are no Gaussians.
+/// Writes a .splat file if the path ends so (degree 0 only, quantised; a warning says what is lost, `notes` have no
+/// place), else that PLY layout, binary little endian, floats, with nx ny nz = direction of the shortest axis (unit
+/// length, side arbitrary), so that readers of point clouds find normals. The header's comments name the format's
+/// version, the camera convention, and then the lines of `notes` (the training's settings; without line breaks).
+/// read_map() gives back the same bits of a PLY. Written beside the path and renamed. Throws InputError if the path
+/// cannot be written, or if there are no Gaussians.
 void write_map(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes = {});
 
 }  // namespace odosplat

@@ -14,6 +14,7 @@
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/list_file.hpp"
 #include "odosplat/io/natural_order.hpp"
+#include "odosplat/io/ply.hpp"
 #include "odosplat/io/similarity_file.hpp"
 #include "odosplat/io/trajectory_file.hpp"
 #include "odosplat/io/transforms_file.hpp"
@@ -71,6 +72,20 @@ void demand_points(const PointCloud& cloud) {
   for (const Eigen::Vector3f& c : cloud.colors) demand(c.minCoeff() >= 0.0F && c.maxCoeff() <= 1.0F, "colours 0..1");
 }
 
+// PCD and LAS are told by their first bytes as well as by the name: others than the one meant may turn up.
+void cloud(const char* name, const std::string& bytes) {
+  set_log_level("off");
+  read_or_refuse([&] {
+    const PointCloud read = parse_point_cloud(name, bytes);
+    demand(read.size() > 0, "a cloud has points");
+    demand(read.colors.empty() || read.has_colors(), "colours are all or nothing");
+    demand(read.normals.empty() || read.has_normals(), "normals are all or nothing");
+    for (const Eigen::Vector3f& p : read.points) demand(p.allFinite(), "points are finite");
+    for (const Eigen::Vector3f& c : read.colors) demand(c.minCoeff() >= 0.0F && c.maxCoeff() <= 1.0F, "colours 0..1");
+    for (const Eigen::Vector3f& n : read.normals) demand(n.norm() > 0.99F && n.norm() < 1.01F, "normals are unit");
+  });
+}
+
 }  // namespace
 
 // The container only: the decoders are not ours, and their work would hide ours.
@@ -97,13 +112,13 @@ void ply(const std::string& bytes) {
         demand(rows == element.count, "a column has as many rows as its element");
       }
     }
-    const PointCloud cloud = point_cloud_from_ply(parsed);
-    demand(cloud.size() > 0, "a cloud has points");
-    for (const Eigen::Vector3f& p : cloud.points) demand(p.allFinite(), "points are finite");
-    for (const Eigen::Vector3f& c : cloud.colors) demand(c.minCoeff() >= 0.0F && c.maxCoeff() <= 1.0F, "colours 0..1");
-    for (const Eigen::Vector3f& n : cloud.normals) demand(n.norm() > 0.99F && n.norm() < 1.01F, "normals are unit");
   });
+  cloud("fuzz.ply", bytes);
 }
+
+void pcd(const std::string& bytes) { cloud("fuzz.pcd", bytes); }
+void las(const std::string& bytes) { cloud("fuzz.las", bytes); }
+void cloud_text(const std::string& bytes) { cloud("fuzz.xyz", bytes); }
 
 void trajectory(const std::string& bytes) {
   read_or_refuse([&] { demand_order(parse_trajectory("fuzz", bytes)); });

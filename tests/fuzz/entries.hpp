@@ -16,5 +16,9 @@ void sequence_lists(const std::string& bytes);
 void colmap_text(const std::string& bytes);
 void colmap_binary(const std::string& bytes);
 void transforms(const std::string& bytes);
+void pcd(const std::string& bytes);
+void las(const std::string& bytes);
+void cloud_text(const std::string& bytes);
+void gaussians(const std::string& bytes);  // .splat and PLY; in gaussian_entries.cpp
 
 }  // namespace odosplat::fuzz

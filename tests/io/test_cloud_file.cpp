@@ -19,8 +19,8 @@ using test::TempFolder;
 using testing::ElementsAre;
 
 PointCloud cloud_of(const std::string& properties, const std::string& rows, int count) {
-  return point_cloud_from_ply(parse_ply("c.ply", "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
-                                                     "\n" + properties + "end_header\n" + rows));
+  return parse_point_cloud("c.ply", "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + "\n" +
+                                        properties + "end_header\n" + rows);
 }
 
 const std::string xyz = "property float x\nproperty float y\nproperty float z\n";

@@ -43,7 +43,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Target{"image", fuzz::image}, Target{"ply", fuzz::ply}, Target{"trajectory", fuzz::trajectory},
                     Target{"camera_file", fuzz::camera_file}, Target{"sequence_lists", fuzz::sequence_lists},
                     Target{"colmap_text", fuzz::colmap_text}, Target{"colmap_binary", fuzz::colmap_binary},
-                    Target{"transforms", fuzz::transforms}));
+                    Target{"transforms", fuzz::transforms}, Target{"pcd", fuzz::pcd}, Target{"las", fuzz::las},
+                    Target{"cloud_text", fuzz::cloud_text}));
 
 }  // namespace
 }  // namespace odosplat

@@ -138,9 +138,9 @@ Images composite(const std::vector<Splat>& splats, const Camera& camera, const R
       }
       const SigmaModel& model = request.sigma_model;
       const auto factor = [](float f) { return static_cast<double>(f); };
-      out.sigma[i] = std::hypot(
-          std::hypot(factor(model.spread) * spread, factor(model.slope_px) * sloped / out.alpha[i]),
-          std::hypot(factor(model.depth_share) * out.depth[i], factor(model.open_share) * T * out.depth[i]));
+      out.sigma[i] =
+          std::hypot(std::hypot(factor(model.spread) * spread, factor(model.slope_px) * sloped / out.alpha[i]),
+                     std::hypot(factor(model.depth_share) * out.depth[i], factor(model.open_share) * T * out.depth[i]));
     }
     if (made != nullptr) (*made)[i] = std::move(pixel);
   }

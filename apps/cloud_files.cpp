@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "cloud_files.hpp"
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
+#include "odosplat/io/cloud_file.hpp"
+#include "odosplat/io/cloud_scan.hpp"
+#include "odosplat/map/cloud_filters.hpp"
+#include "odosplat/map/cloud_thinner.hpp"
+#include "support.hpp"
+
+namespace odosplat::apps {
+
+PointCloud read_thinned(const std::vector<std::string>& files, double voxel, const Eigen::Vector3d& origin) {
+  CloudThinner thinner(voxel, origin);
+  std::string names;
+  for (const std::string& file : files) {
+    scan_cloud(file, [&](const CloudBatch& batch) {
+      if (interrupted()) throw Interrupted();
+      thinner.add(batch);
+    });
+    names += (names.empty() ? "" : ", ") + file;
+  }
+  PointCloud cloud = thinner.finish(names);
+  if (cloud.size() == 0) throw InputError(names, "all points are too far from the origin for such small voxels");
+  log_info(std::to_string(thinner.points()) + " points thinned to " + std::to_string(cloud.size()));
+  return cloud;
+}
+
+PointCloud read_cloud(const std::string& file, double voxel, bool drop_outliers) {
+  require(voxel >= 0.0, "voxel", "at least 0 [m]");
+  const PointCloud cloud = voxel > 0.0 ? read_thinned({file}, voxel, Eigen::Vector3d::Zero()) : read_point_cloud(file);
+  return drop_outliers ? without_outliers(cloud) : cloud;
+}
+
+PointCloud without_outliers(const PointCloud& cloud) {
+  PointCloud kept = remove_outliers(cloud);
+  log_info(std::to_string(cloud.size() - kept.size()) + " of " + std::to_string(cloud.size()) +
+           " points are outliers and dropped");
+  return kept;
+}
+
+}  // namespace odosplat::apps

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "cloud_files.hpp"
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/cloud_file.hpp"
+#include "odosplat/splat/map_file.hpp"
+#include "support.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+struct ConvertFlags {
+  std::string in;
+  std::string out;
+};
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+void convert_map(const ConvertFlags& flags) {
+  const Gaussians gaussians = read_map(flags.in);
+  write_map(flags.out, gaussians);
+  std::printf("%s: %zu Gaussians\n", flags.out.c_str(), gaussians.size());
+}
+
+void convert_cloud(const ConvertFlags& flags) {
+  const PointCloud cloud = read_point_cloud(flags.in);
+  write_point_cloud(flags.out, cloud);
+  std::printf("%s: %zu points\n", flags.out.c_str(), cloud.size());
+}
+
+void run(const ConvertFlags& flags) {
+  const std::string to = extension_of(flags.out);
+  if (to != ".ply" && to != ".splat") throw InputError(flags.out, "must end in .ply or .splat");
+  ensure_output_file(flags.out);
+  if (is_map_file(flags.in)) {
+    convert_map(flags);
+  } else if (to == ".splat") {
+    throw InputError(flags.in, "holds no Gaussians, which .splat is made of");
+  } else {
+    convert_cloud(flags);
+  }
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, Common& common) {
+  CLI::App* command =
+      add_command(app, common, "convert", "convert maps of Gaussians and point clouds between file formats");
+  auto flags = std::make_shared<ConvertFlags>();
+  command->add_option("IN", flags->in, std::string("map of Gaussians (PLY, .splat) or ") + cloud_formats)->required();
+  command->add_option("OUT", flags->out, "map (.ply; .splat keeps no view dependence) or cloud (.ply) to write")
+      ->required();
+  command->final_callback([flags] { run(*flags); });
+}
+
+}  // namespace odosplat::apps

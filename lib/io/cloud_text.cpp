@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <limits>
+
+#include "odosplat/io/cloud_source.hpp"
+#include "odosplat/io/text_layout.hpp"
+#include "odosplat/io/text_rows.hpp"
+
+namespace odosplat {
+namespace {
+
+class TextSource : public CloudSource {
+ public:
+  explicit TextSource(CloudInput input) : input_(std::move(input)), lines_(input_.name, *input_.in) {
+    layout_ = find_text_layout(input_.name, *input_.in);
+    input_.in->clear();
+    input_.in->seekg(0);
+    for (std::size_t i = 0; i < layout_.lines_before; ++i) lines_.next(line_);
+  }
+
+  bool next(CloudRows& rows) override {
+    rows.clear();
+    while (rows.points.size() < batch_rows && lines_.next(line_)) {
+      if (is_comment(line_)) continue;
+      split_words(line_, layout_.separator, words_);
+      if (words_.size() != layout_.columns) {
+        lines_.fail("has " + std::to_string(words_.size()) + " values, must have " + std::to_string(layout_.columns));
+      }
+      rows.points.push_back(triple<double>(layout_.point));
+      if (layout_.color) rows.colors.push_back(color());
+      if (layout_.normal) rows.normals.push_back(triple<float>(*layout_.normal));
+    }
+    return !rows.points.empty();
+  }
+
+  std::optional<ColorRange> color_range() const override {
+    if (!layout_.color) return std::nullopt;
+    return ColorRange{1.0F, 255.0F};
+  }
+
+ private:
+  template <typename T>
+  Eigen::Matrix<T, 3, 1> triple(const TextLayout::Triple& columns) const {
+    Eigen::Matrix<T, 3, 1> values;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string_view word = words_[columns[i]];
+      const std::optional<double> value = number_of(word);
+      if (!value) lines_.fail("`" + shown(word) + "` is not a number");
+      values[static_cast<Eigen::Index>(i)] = static_cast<T>(*value);
+    }
+    return values;
+  }
+
+  Eigen::Vector3f color() const {
+    const auto value = triple<float>(*layout_.color);
+    if (!(value.minCoeff() >= 0.0F && value.maxCoeff() <= 255.0F)) {
+      lines_.fail("its colour is no colour of 0..255 or 0..1");
+    }
+    return value;
+  }
+
+  CloudInput input_;
+  LineReader lines_;
+  TextLayout layout_;
+  std::string line_;
+  std::vector<std::string_view> words_;
+};
+
+}  // namespace
+
+std::unique_ptr<CloudSource> open_text_source(CloudInput input) {
+  return std::make_unique<TextSource>(std::move(input));
+}
+
+}  // namespace odosplat

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+// Apart from entries.cpp: this one needs the splat room.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "fuzz/entries.hpp"
+#include "odosplat/core/error.hpp"
+#include "odosplat/splat/map_file.hpp"
+#include "odosplat/splat/splat_file.hpp"
+
+namespace odosplat::fuzz {
+namespace {
+
+void demand(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "contract broken: %s\n", what);
+  std::abort();
+}
+
+void read_or_refuse(const char* name, const std::string& bytes) {
+  Gaussians g;
+  try {
+    g = parse_map(name, bytes);
+  } catch (const InputError& e) {
+    demand(std::string(e.what()).find('\n') == std::string::npos, "an error has one line");
+    return;
+  }
+  g.check();
+  demand(!g.empty(), "a map has Gaussians");
+  for (const auto* part : {&g.positions, &g.log_scales, &g.rotations, &g.opacity_logits, &g.sh}) {
+    for (const float value : *part) demand(std::isfinite(value), "values are finite");
+  }
+  demand(splat_bytes(g).size() == 32 * g.size(), "a .splat holds every Gaussian");
+  demand(parse_splat("again", splat_bytes(g)).size() == g.size(), "what is written can be read");
+}
+
+}  // namespace
+
+void gaussians(const std::string& bytes) {
+  read_or_refuse("fuzz.splat", bytes);
+  read_or_refuse("fuzz.ply", bytes);
+}
+
+}  // namespace odosplat::fuzz

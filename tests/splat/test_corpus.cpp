@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+// Replays the seeds and kept findings of the fuzzer of Gaussian files: who breaks a contract aborts this program.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "fuzz/entries.hpp"
+#include "odosplat/io/atomic_file.hpp"
+
+namespace odosplat {
+namespace {
+
+TEST(GaussianCorpus, EverySeedAndEveryCutOfItIsReadOrRefused) {
+  int seeds = 0;
+  for (const auto& file : std::filesystem::directory_iterator(ODOSPLAT_SOURCE_DIR "/tests/fuzz/corpus/gaussians")) {
+    const std::string bytes = read_file(file.path().string());
+    SCOPED_TRACE(file.path().string());
+    fuzz::gaussians(bytes);
+    for (std::size_t k = 0; k < 32; ++k) fuzz::gaussians(bytes.substr(0, bytes.size() * k / 32));
+    ++seeds;
+  }
+  EXPECT_GT(seeds, 3);
+}
+
+}  // namespace
+}  // namespace odosplat
