@@ -31,7 +31,7 @@ class LasSource : public CloudSource {
     if (held < 4 || std::string(h, 4) != "LASF") throw InputError(input_.name, "is not a LAS file");
     if (held < 227) throw InputError(input_.name, "ends within the header");
     read_version(h);
-    const int minor = h[25];
+    const int minor = static_cast<unsigned char>(h[25]);
     if (minor == 4 && held < header.size()) throw InputError(input_.name, "ends within the header");
     const int packed = static_cast<unsigned char>(h[104]);
     if ((packed & 0xC0) != 0) {

@@ -74,7 +74,7 @@ Gaussians parse_splat(const std::string& name, const std::string& bytes) {
 }
 
 std::string splat_bytes(const Gaussians& gaussians) {
-  const auto stride = static_cast<std::size_t>(3 * gaussians.coefficients());
+  const auto stride = 3 * static_cast<std::size_t>(gaussians.coefficients());
   std::string bytes;
   bytes.reserve(gaussians.size() * record);
   for (const std::size_t i : largest_first(gaussians)) {
