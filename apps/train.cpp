@@ -36,6 +36,9 @@ class SequenceViews : public TrainingViews {
   Camera camera(int i) const override { return sequence(i).camera(); }
   SE3 T_world_camera(int i) const override { return *sequence(i).T_world_camera(at(i).frame); }
   ColorImage color(int i) override { return sequence(i).color(at(i).frame); }
+  DepthImage depth(int i) override {
+    return sequence(i).has_depth(at(i).frame) ? sequence(i).depth(at(i).frame) : DepthImage();
+  }
 
  private:
   struct Place {

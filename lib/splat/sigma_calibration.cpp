@@ -15,11 +15,13 @@ namespace {
 
 struct Range {
   float SigmaModel::*factor;
-  float least, most;
+  float most;
 };
-constexpr std::array<Range, 4> ranges{
-    Range{&SigmaModel::spread, 0.02F, 5.0F}, Range{&SigmaModel::slope_px, 0.01F, 4.0F},
-    Range{&SigmaModel::depth_share, 1e-4F, 0.05F}, Range{&SigmaModel::open_share, 1e-3F, 5.0F}};
+constexpr std::array<Range, 4> ranges{Range{&SigmaModel::spread, 5.0F}, Range{&SigmaModel::slope_px, 4.0F},
+                                      Range{&SigmaModel::depth_share, 0.05F}, Range{&SigmaModel::open_share, 5.0F}};
+// A factor of 0 could not grow again; half the spread where nothing is known of edges.
+constexpr SigmaModel least_measured{0.02F, 0.01F, 1e-4F, 1e-3F};
+constexpr SigmaModel least_of_surface{0.5F, 0.05F, 3e-4F, 1e-2F};
 
 double variance_of(const SigmaSample& s, const SigmaModel& m) {
   const double spread = static_cast<double>(m.spread) * s.spread;
@@ -79,10 +81,10 @@ void SigmaCalibrationOptions::check() const {
   rasterizer.check();
 }
 
-SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, double clip) {
+SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, double clip, const SigmaModel& least) {
   SigmaModel model;
   if (samples.empty()) return model;
-  model.open_share = 0.1F;  // a factor of 0 could not grow
+  model.open_share = 0.1F;
   double best = unlikelihood(samples, model, clip);
   for (float step = 4.0F; step > 1.03F; step = std::sqrt(step)) {
     for (bool better = true; better;) {
@@ -90,7 +92,7 @@ SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, double clip) {
       for (const Range& range : ranges) {
         for (const float factor : {step, 1.0F / step}) {
           SigmaModel tried = model;
-          tried.*range.factor = std::clamp(model.*range.factor * factor, range.least, range.most);
+          tried.*range.factor = std::clamp(model.*range.factor * factor, least.*range.factor, range.most);
           const double value = unlikelihood(samples, tried, clip);
           if (value >= best - 1e-7) continue;
           best = value;
@@ -108,7 +110,9 @@ SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, double clip) {
     const float middle = std::sqrt(low * high);
     (clipped_square(samples, scaled(model, middle), clip) > wanted ? low : high) = middle;
   }
-  return scaled(model, high);
+  model = scaled(model, high);
+  for (const Range& range : ranges) model.*range.factor = std::max(model.*range.factor, least.*range.factor);
+  return model;
 }
 
 SigmaModel calibrated_sigma(const compute::Context& context, const Gaussians& gaussians, TrainingViews& views,
@@ -122,12 +126,16 @@ SigmaModel calibrated_sigma(const compute::Context& context, const Gaussians& ga
   request.sigma = true;
   request.depth_mode = DepthMode::surface;
   std::vector<SigmaSample> samples;
+  bool measured = true;
   const int count = std::min(options.views, views.count());
   for (int k = 0; k < count; ++k) {
     const int view = static_cast<int>(static_cast<long>(k) * views.count() / count);
     const Camera camera = views.camera(view);
     const SE3 T_world_camera = views.T_world_camera(view);
-    const ViewImages target = surface.render(camera, T_world_camera, {});
+    DepthImage target = views.depth(view);
+    const bool by_surface = target.size() != cv::Size(camera.width, camera.height);
+    if (by_surface) target = surface.render(camera, T_world_camera, {}).depth;
+    measured = measured && !by_surface;
     request.sigma_model = SigmaModel::plain_spread();
     rasterizer.forward(on_device, camera, T_world_camera, request, out);
     const cv::Mat1f depth = image_of(out.depth, camera);
@@ -139,16 +147,16 @@ SigmaModel calibrated_sigma(const compute::Context& context, const Gaussians& ga
     const int stride = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(depth.total()) / options.samples)));
     for (int y = stride / 2; y < depth.rows; y += stride) {
       for (int x = stride / 2; x < depth.cols; x += stride) {
-        if (!(target.depth(y, x) > 0.0F) || !(depth(y, x) > 0.0F) || alpha(y, x) < 0.5F) continue;
+        if (!(target(y, x) > 0.0F) || !(depth(y, x) > 0.0F) || alpha(y, x) < 0.5F) continue;
         const auto at = [&](const cv::Mat1f& image) { return static_cast<double>(image(y, x)); };
         // The tangent of the angle between ray and normal, about: an error across the surface is longer along the ray.
         const double tangent = at(slope) * std::min(camera.fx, camera.fy) / at(depth);
-        samples.push_back({at(depth) - at(target.depth), options.shared_sigma * std::hypot(1.0, tangent), at(spread),
-                           at(slope), at(depth), 1.0 - at(alpha)});
+        samples.push_back({at(depth) - at(target), by_surface ? options.shared_sigma * std::hypot(1.0, tangent) : 0.0,
+                           at(spread), at(slope), at(depth), 1.0 - at(alpha)});
       }
     }
   }
-  return fit_sigma(samples, options.clip);
+  return fit_sigma(samples, options.clip, measured ? least_measured : least_of_surface);
 }
 
 }  // namespace odosplat

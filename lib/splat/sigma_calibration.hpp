@@ -23,7 +23,7 @@ struct SigmaCalibrationOptions {
 
 /// One pixel: what the map says, what the surface says, and what sigma could be made of.
 struct SigmaSample {
-  double error = 0.0;         // [m] map - surface; the surface's own part in it makes sigma a little too large
+  double error = 0.0;         // [m] map - measured; the measurement's own part in it makes sigma a little too large
   double shared_sigma = 0.0;  // [m] along the ray, of both
   double spread = 0.0;        // [m]
   double slope = 0.0;         // [m/px]
@@ -34,10 +34,13 @@ struct SigmaSample {
 /// Factors for which errors over sigma have unit variance: those under which the errors are most likely (normal,
 /// normalised errors clipped), searched factor by factor on a logarithmic grid, then
 /// all scaled together so that the mean square of the clipped normalised errors is what a normal distribution clipped
-/// there has. Without samples the defaults. Deterministic.
-SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, double clip);
+/// there has. least: factors are not below these. Without samples the defaults. Deterministic.
+SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, double clip, const SigmaModel& least);
 
-/// The map's depth (mode surface) at training views against the surface it was made from, and the factors of that.
+/// The map's depth (mode surface) at training views against the depth measured there, or where there is none, against
+/// the surface it was made from, and the factors of that. The surface says nothing near its edges, where the spread
+/// counts, nor of what it has in common with the map: with it alone the spread keeps at least half its weight, and
+/// shared_sigma is added.
 SigmaModel calibrated_sigma(const compute::Context& context, const Gaussians& gaussians, TrainingViews& views,
                             MapView& surface, const SigmaCalibrationOptions& options = {});
 

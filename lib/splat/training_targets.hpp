@@ -27,6 +27,9 @@ class TrainingViews {
   virtual SE3 T_world_camera(int i) const = 0;
   /// Image of view i, as large as its camera says, values 0..1.
   virtual ColorImage color(int i) = 0;
+  /// Measured depth of view i as its camera sees it [m], if there is any (else empty): not trained on, but what the
+  /// map's sigma is calibrated with.
+  virtual DepthImage depth(int) { return {}; }
 };
 
 /// What a step of training compares with, in device memory: the image at a level of its pyramid, and the depth of the

@@ -20,6 +20,8 @@ namespace {
 using test::CornerScene;
 using test::CornerViews;
 
+constexpr SigmaModel least{0.02F, 0.01F, 1e-4F, 1e-3F};
+
 double sigma_of(const SigmaSample& s, const SigmaModel& m) {
   return std::hypot(
       std::hypot(static_cast<double>(m.spread) * s.spread, static_cast<double>(m.slope_px) * s.slope),
@@ -44,7 +46,7 @@ std::vector<SigmaSample> drawn_from(const SigmaModel& model, double outliers, st
 TEST(SigmaCalibration, FindsTheModelThatErrorsWereDrawnFrom) {
   const SigmaModel truth{0.7F, 0.25F, 0.0015F, 0.05F};
   const auto samples = drawn_from(truth, 0.0, 1);
-  const SigmaModel found = fit_sigma(samples, 3.0);
+  const SigmaModel found = fit_sigma(samples, 3.0, least);
   EXPECT_NEAR(found.spread, truth.spread, 0.1F * truth.spread);
   EXPECT_NEAR(found.slope_px, truth.slope_px, 0.1F * truth.slope_px);
   EXPECT_NEAR(found.depth_share, truth.depth_share, 0.1F * truth.depth_share);
@@ -54,7 +56,7 @@ TEST(SigmaCalibration, FindsTheModelThatErrorsWereDrawnFrom) {
 TEST(SigmaCalibration, NormalisedErrorsHaveUnitVariance) {
   for (const double outliers : {0.0, 0.02}) {
     const auto samples = drawn_from({0.7F, 0.25F, 0.0015F, 0.05F}, outliers, 2);
-    const SigmaModel found = fit_sigma(samples, 3.0);
+    const SigmaModel found = fit_sigma(samples, 3.0, least);
     double sum = 0.0;
     int inside = 0;
     for (const SigmaSample& s : samples) {
@@ -71,11 +73,11 @@ TEST(SigmaCalibration, NormalisedErrorsHaveUnitVariance) {
 TEST(SigmaCalibration, CountsWhatTheComparisonCannotShow) {
   auto samples = drawn_from({0.0F, 0.0F, 1e-4F, 0.0F}, 0.0, 3);
   for (SigmaSample& s : samples) s.shared_sigma = 0.001 * s.depth;
-  EXPECT_NEAR(fit_sigma(samples, 3.0).depth_share, 0.001F, 0.0002F);
+  EXPECT_NEAR(fit_sigma(samples, 3.0, least).depth_share, 0.001F, 0.0002F);
 }
 
 TEST(SigmaCalibration, WithoutSamplesTheDefaults) {
-  EXPECT_EQ(fit_sigma({}, 3.0).depth_share, SigmaModel().depth_share);
+  EXPECT_EQ(fit_sigma({}, 3.0, least).depth_share, SigmaModel().depth_share);
 }
 
 TEST(SigmaCalibration, OfAMapCoversItsErrors) {
