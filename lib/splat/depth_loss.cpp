@@ -18,7 +18,7 @@ void DepthLossOptions::check() const {
 DepthLoss::DepthLoss(const compute::Context& context, const DepthLossOptions& options)
     : options_((options.check(), options)),
       context_(context),
-      kernel_(compute::Program(context, {"depth_loss.cl"}).kernel("depth_loss")) {}
+      kernel_(compute::Program(context, {"depth_loss.cl"}).kernel("depth_loss", "loss")) {}
 
 void DepthLoss::evaluate(const compute::Buffer<float>& rendered, const compute::Buffer<float>& target,
                          const compute::Buffer<float>& pixel_weight, int width, int height,

@@ -26,8 +26,8 @@ void ExposureOptions::check() const {
 Exposures::Exposures(const compute::Context& context, const ExposureOptions& options, int views)
     : options_((options.check(), options)),
       context_(context),
-      expose_(compute::Program(context, {"exposure.cl"}).kernel("expose")),
-      backward_(compute::Program(context, {"exposure.cl"}).kernel("expose_backward")),
+      expose_(compute::Program(context, {"exposure.cl"}).kernel("expose", "loss")),
+      backward_(compute::Program(context, {"exposure.cl"}).kernel("expose_backward", "loss")),
       state_(row * static_cast<std::size_t>(views), 0.0) {
   for (std::size_t v = 0; v < static_cast<std::size_t>(views); ++v)
     std::fill_n(state_.begin() + static_cast<std::ptrdiff_t>(v * row), 3, 1.0);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "odosplat/core/error.hpp"
 
@@ -31,38 +30,43 @@ double variance_of(const SigmaSample& s, const SigmaModel& m) {
   return spread * spread + sloped * sloped + floor * floor + open * open;
 }
 
-/// What the comparison shows and what it cannot show.
-double squared_error(const SigmaSample& s) { return s.error * s.error + s.shared_sigma * s.shared_sigma; }
+/// What the comparison shows and, at the quantile of two sigmas, what it cannot show.
+double squared_error(const SigmaSample& s) { return s.error * s.error + 4.0 * s.shared_sigma * s.shared_sigma; }
 
-/// Mean of half the clipped squared normalised error and half the logarithm of the variance.
-double unlikelihood(const std::vector<SigmaSample>& samples, const SigmaModel& model, double clip) {
+/// Mean pinball loss of ln |error| about ln 2 sigma at the quantile of two sigmas.
+double pinball_loss(const std::vector<SigmaSample>& samples, const SigmaModel& model) {
+  constexpr double two_sigmas = 0.9545;
+  constexpr double least_error = 1e-5;  // [m]
   double sum = 0.0;
   for (const SigmaSample& s : samples) {
-    const double variance = variance_of(s, model);
-    sum += 0.5 * std::log(variance) + 0.5 * std::min(squared_error(s) / variance, clip * clip);
+    const double error = std::max(squared_error(s), least_error * least_error);
+    const double above = 0.5 * std::log(error / (4.0 * variance_of(s, model)));
+    sum += above * (above > 0.0 ? two_sigmas : two_sigmas - 1.0);
   }
   return sum / static_cast<double>(samples.size());
 }
 
-double clipped_square(const std::vector<SigmaSample>& samples, const SigmaModel& model, double clip) {
-  double sum = 0.0;
-  for (const SigmaSample& s : samples) {
-    const double variance = variance_of(s, model);
-    sum += std::min(squared_error(s) / variance, clip * clip);
+/// The pixel with the strongest image gradient in each cell of size `cell` [px].
+std::vector<cv::Point> strongest_pixels(const ColorImage& color, int cell) {
+  const GrayImage gray = to_gray(color);
+  std::vector<cv::Point> pixels;
+  for (int top = 0; top < gray.rows; top += cell) {
+    for (int left = 0; left < gray.cols; left += cell) {
+      cv::Point best(left, top);
+      float most = -1.0F;
+      for (int y = std::max(top, 1); y < std::min(top + cell, gray.rows - 1); ++y) {
+        for (int x = std::max(left, 1); x < std::min(left + cell, gray.cols - 1); ++x) {
+          const float du = gray(y, x + 1) - gray(y, x - 1);
+          const float dv = gray(y + 1, x) - gray(y - 1, x);
+          if (du * du + dv * dv <= most) continue;
+          most = du * du + dv * dv;
+          best = {x, y};
+        }
+      }
+      pixels.push_back(best);
+    }
   }
-  return sum / static_cast<double>(samples.size());
-}
-
-/// E[min(x^2, c^2)] of a standard normal x.
-double clipped_square_of_normal(double c) {
-  const double inside = std::erf(c / std::numbers::sqrt2);
-  const double density = std::exp(-0.5 * c * c) / std::sqrt(2.0 * std::numbers::pi);
-  return inside - 2.0 * c * density + c * c * (1.0 - inside);
-}
-
-SigmaModel scaled(SigmaModel model, float factor) {
-  for (const Range& range : ranges) model.*range.factor *= factor;
-  return model;
+  return pixels;
 }
 
 cv::Mat1f image_of(const compute::Buffer<float>& buffer, const Camera& camera) {
@@ -77,15 +81,14 @@ void SigmaCalibrationOptions::check() const {
   require(views >= 1, "views", "at least 1");
   require(samples >= 1, "samples", "at least 1");
   require(shared_sigma >= 0.0 && std::isfinite(shared_sigma), "shared_sigma", "at least 0");
-  require(clip > 1.0 && std::isfinite(clip), "clip", "above 1");
   rasterizer.check();
 }
 
-SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, double clip, const SigmaModel& least) {
+SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, const SigmaModel& least) {
   SigmaModel model;
   if (samples.empty()) return model;
   model.open_share = 0.1F;
-  double best = unlikelihood(samples, model, clip);
+  double best = pinball_loss(samples, model);
   for (float step = 4.0F; step > 1.03F; step = std::sqrt(step)) {
     for (bool better = true; better;) {
       better = false;
@@ -93,7 +96,7 @@ SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, double clip, const
         for (const float factor : {step, 1.0F / step}) {
           SigmaModel tried = model;
           tried.*range.factor = std::clamp(model.*range.factor * factor, least.*range.factor, range.most);
-          const double value = unlikelihood(samples, tried, clip);
+          const double value = pinball_loss(samples, tried);
           if (value >= best - 1e-7) continue;
           best = value;
           model = tried;
@@ -102,16 +105,6 @@ SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, double clip, const
       }
     }
   }
-  // The clipped likelihood likes sigmas a little small: half-way search for the common factor.
-  const double wanted = clipped_square_of_normal(clip);
-  float low = 0.1F;
-  float high = 10.0F;
-  for (int i = 0; i < 40; ++i) {
-    const float middle = std::sqrt(low * high);
-    (clipped_square(samples, scaled(model, middle), clip) > wanted ? low : high) = middle;
-  }
-  model = scaled(model, high);
-  for (const Range& range : ranges) model.*range.factor = std::max(model.*range.factor, least.*range.factor);
   return model;
 }
 
@@ -144,19 +137,17 @@ SigmaModel calibrated_sigma(const compute::Context& context, const Gaussians& ga
     request.sigma_model = {0.0F, 1.0F, 0.0F, 0.0F};
     rasterizer.forward(on_device, camera, T_world_camera, request, out);
     const cv::Mat1f slope = image_of(out.sigma, camera);
-    const int stride = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(depth.total()) / options.samples)));
-    for (int y = stride / 2; y < depth.rows; y += stride) {
-      for (int x = stride / 2; x < depth.cols; x += stride) {
-        if (!(target(y, x) > 0.0F) || !(depth(y, x) > 0.0F) || alpha(y, x) < 0.5F) continue;
-        const auto at = [&](const cv::Mat1f& image) { return static_cast<double>(image(y, x)); };
-        // The tangent of the angle between ray and normal, about: an error across the surface is longer along the ray.
-        const double tangent = at(slope) * std::min(camera.fx, camera.fy) / at(depth);
-        samples.push_back({at(depth) - at(target), by_surface ? options.shared_sigma * std::hypot(1.0, tangent) : 0.0,
-                           at(spread), at(slope), at(depth), 1.0 - at(alpha)});
-      }
+    const double cell = std::sqrt(static_cast<double>(depth.total()) / options.samples);
+    for (const cv::Point& p : strongest_pixels(views.color(view), std::max(1, static_cast<int>(cell)))) {
+      if (!(target(p) > 0.0F) || !(depth(p) > 0.0F) || alpha(p) < 0.5F) continue;
+      const auto at = [&](const cv::Mat1f& image) { return static_cast<double>(image(p)); };
+      // The tangent of the angle between ray and normal, about: an error across the surface is longer along the ray.
+      const double tangent = at(slope) * std::min(camera.fx, camera.fy) / at(depth);
+      const double shared = by_surface ? options.shared_sigma * std::hypot(1.0, tangent) : 0.0;
+      samples.push_back({at(depth) - at(target), shared, at(spread), at(slope), at(depth), 1.0 - at(alpha)});
     }
   }
-  return fit_sigma(samples, options.clip, measured ? least_measured : least_of_surface);
+  return fit_sigma(samples, measured ? least_measured : least_of_surface);
 }
 
 }  // namespace odosplat

@@ -13,8 +13,7 @@ namespace odosplat {
 
 struct SigmaCalibrationOptions {
   int views = 40;             // at most this many of the training views, evenly spread, >= 1
-  int samples = 2000;         // pixels a view, on a grid, >= 1
-  double clip = 3.0;          // normalised errors beyond count as this: other surfaces, not noise, > 1
+  int samples = 2000;         // pixels a view, >= 1: of a grid's cells the one with the strongest image gradient
   double shared_sigma = 0.0;  // [m] error across the surface that map and surface have in common (noise_left), >= 0
   RasterizerOptions rasterizer;
 
@@ -31,16 +30,17 @@ struct SigmaSample {
   double open = 0.0;          // 1 - alpha
 };
 
-/// Factors for which errors over sigma have unit variance: those under which the errors are most likely (normal,
-/// normalised errors clipped), searched factor by factor on a logarithmic grid, then
-/// all scaled together so that the mean square of the clipped normalised errors is what a normal distribution clipped
-/// there has. least: factors are not below these. Without samples the defaults. Deterministic.
-SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, double clip, const SigmaModel& least);
+/// Factors for which 95.4 % of the errors are within two sigmas, as a normal distribution's are, whatever the pixel is
+/// like: quantile regression (Koenker and Bassett 1978) of ln |error| on ln 2 sigma, searched factor by factor on a
+/// logarithmic grid. Errors of depth are not normal: most are small, and where two surfaces meet some are as large as
+/// the gap. A variance would hang on those few, and one that leaves them out calls such pixels sure.
+/// least: factors are not below these. Without samples the defaults. Deterministic.
+SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, const SigmaModel& least);
 
 /// The map's depth (mode surface) at training views against the depth measured there, or where there is none, against
 /// the surface it was made from, and the factors of that. The surface says nothing near its edges, where the spread
 /// counts, nor of what it has in common with the map: with it alone the spread keeps at least half its weight, and
-/// shared_sigma is added.
+/// shared_sigma is added. Pixels with an image gradient are what trackers use, so those are judged.
 SigmaModel calibrated_sigma(const compute::Context& context, const Gaussians& gaussians, TrainingViews& views,
                             MapView& surface, const SigmaCalibrationOptions& options = {});
 

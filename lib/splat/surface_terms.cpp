@@ -39,7 +39,7 @@ std::vector<float> surface_anchors(const Gaussians& discs) {
 
 SurfaceTerms::SurfaceTerms(const compute::Context& context, const SurfaceTermsOptions& options)
     : options_((options.check(), options)),
-      kernel_(compute::Program(context, {"surface_terms.cl"}).kernel("surface_terms")) {}
+      kernel_(compute::Program(context, {"surface_terms.cl"}).kernel("surface_terms", "loss")) {}
 
 void SurfaceTerms::add(const DeviceGaussians& gaussians, const compute::Buffer<float>& anchors,
                        DeviceGaussians& gradients) {

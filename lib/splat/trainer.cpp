@@ -110,7 +110,7 @@ Trainer::Trainer(const compute::Context& context, const TrainerOptions& options,
       opacity_logits_(context, options.adam, 1, 1, 0.0F),
       sh_(context, options.adam, 3 * initial.coefficients(), 3,
           options.color_rate > 0.0 ? static_cast<float>(options.sh_rate / options.color_rate) : 0.0F),
-      screen_statistics_(compute::Program(context, {"screen_statistics.cl"}).kernel("screen_statistics")),
+      screen_statistics_(compute::Program(context, {"screen_statistics.cl"}).kernel("screen_statistics", "densify")),
       position_length_(options.position_length == PositionLength::gaussian_size ? median_size(initial)
                                                                                 : camera_extent(views)),
       camera_extent_(camera_extent(views)),

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -33,10 +34,9 @@ ScratchFolder::~ScratchFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-RunResult run_odosplat(const std::vector<std::string>& arguments) {
-  const ScratchFolder scratch;
-  const std::string out_file = scratch / "out";
-  const std::string err_file = scratch / "err";
+namespace {
+
+pid_t start(const std::vector<std::string>& arguments, const std::string& out_file, const std::string& err_file) {
   std::vector<std::string> words{ODOSPLAT_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -49,8 +49,31 @@ RunResult run_odosplat(const std::vector<std::string>& arguments) {
     execv(argv[0], argv.data());
     _exit(127);
   }
+  return child;
+}
+
+}  // namespace
+
+RunResult run_odosplat(const std::vector<std::string>& arguments) {
+  return run_odosplat_and_signal(arguments, 0, [] { return false; });
+}
+
+RunResult run_odosplat_and_signal(const std::vector<std::string>& arguments, int signal,
+                                  const std::function<bool()>& ready) {
+  const ScratchFolder scratch;
+  const std::string out_file = scratch / "out";
+  const std::string err_file = scratch / "err";
+  const pid_t child = start(arguments, out_file, err_file);
   int status = 0;
-  waitpid(child, &status, 0);
+  while (signal != 0 && waitpid(child, &status, WNOHANG) == 0) {
+    if (ready()) {
+      kill(child, signal);
+      signal = 0;
+    } else {
+      usleep(2000);
+    }
+  }
+  if (signal == 0) waitpid(child, &status, 0);
   RunResult result;
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.out = read_text(out_file);

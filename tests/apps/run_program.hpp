@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ struct RunResult {
 
 /// Runs the odosplat program of this build with these arguments and waits. No shell is involved.
 RunResult run_odosplat(const std::vector<std::string>& arguments);
+
+/// The same, but sends the signal as soon as `ready` says so, unless the program has ended before. `ready` is asked
+/// every few milliseconds.
+RunResult run_odosplat_and_signal(const std::vector<std::string>& arguments, int signal,
+                                  const std::function<bool()>& ready);
 
 /// A folder of its own for a test, removed at the end.
 class ScratchFolder {

@@ -19,9 +19,12 @@
 #include "odosplat/core/random.hpp"
 #include "odosplat/kernels/constants.h"
 #include "odosplat/splat/adam.hpp"
+#include "odosplat/splat/depth_loss.hpp"
+#include "odosplat/splat/exposures.hpp"
 #include "odosplat/splat/losses.hpp"
 #include "odosplat/splat/raster_pairs.hpp"
 #include "odosplat/splat/rasterizer.hpp"
+#include "odosplat/splat/surface_terms.hpp"
 #include "odosplat/splat/viewpoint.hpp"
 #include "splat/raster_scenes.hpp"
 
@@ -46,6 +49,7 @@ class Exercise {
   void sorts();
   void rasters();
   void losses();
+  void training_terms();
   void adam();
   void write(const std::string& path) const;
 
@@ -129,7 +133,7 @@ void Exercise::raster(Rasterizer& rasterizer, const std::string& name, const Ren
   if (request.sigma) return;  // not differentiated: the backward pass is that without it
   OutputGradients given;
   given.color = some_gradient(output.color.size());
-  given.depth = some_gradient(output.depth.size());
+  if (request.depth_mode != DepthMode::surface) given.depth = some_gradient(output.depth.size());
   given.alpha = some_gradient(output.alpha.size());
   DeviceGaussians gradients;
   Vector6d pose;
@@ -153,11 +157,11 @@ void Exercise::rasters() {
     request.sh_degree = 0;
     for (const bool color : {false, true}) {
       request.color = color;
-      for (const DepthMode mode : {DepthMode::expected, DepthMode::median, DepthMode::blended}) {
+      for (const DepthMode mode : {DepthMode::expected, DepthMode::median, DepthMode::blended, DepthMode::surface}) {
         for (const bool depth : {false, true}) {
           if (!depth && mode != DepthMode::expected) continue;
           for (const bool sigma : {false, true}) {
-            if (sigma && (!depth || mode != DepthMode::expected)) continue;
+            if (sigma && (!depth || (mode != DepthMode::expected && mode != DepthMode::surface))) continue;
             request.depth = depth;
             request.depth_mode = mode;
             request.sigma = sigma;
@@ -190,6 +194,44 @@ void Exercise::losses() {
     keep(name + ".gradient", gradient.download());
     keep(name + ".value", {static_cast<float>(loss.value().loss), static_cast<float>(loss.value().ssim)});
   }
+}
+
+// What training adds to the image loss.
+void Exercise::training_terms() {
+  const int width = scene_.camera.width, height = scene_.camera.height;
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  Random random(10);
+  std::vector<float> depth(pixels), target(pixels), weight(pixels, 0.5F);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    target[i] = static_cast<float>(random.uniform(1.0, 2.0));
+    depth[i] = i % 7 == 0 ? 0.0F : target[i] * static_cast<float>(random.uniform(0.97, 1.03));
+  }
+  DepthLoss depth_loss(context_, {});
+  Buffer<float> gradient;
+  depth_loss.evaluate({context_, depth}, {context_, target}, {context_, weight}, width, height, gradient);
+  keep("depth_loss.gradient", gradient.download());
+
+  Exposures exposures(context_, {1e-3, 0.1}, 1);
+  const Buffer<float> rendered = some_gradient(3 * pixels);
+  Buffer<float> exposed, by_exposed = some_gradient(3 * pixels);
+  exposures.apply(0, rendered, exposed);
+  exposures.backward(0, rendered, width, height, by_exposed);
+  keep("exposed", exposed.download());
+  keep("exposed.gradient", by_exposed.download());
+
+  DeviceGaussians gaussians, gradients;
+  gaussians.upload(context_, scene_.gaussians);
+  gradients.upload(context_, scene_.gaussians);
+  SurfaceTerms(context_, {1.0, 1.0, 1.0}).add(gaussians, {context_, surface_anchors(scene_.gaussians)}, gradients);
+  keep("surface_terms.d_rotations", gradients.rotations.download());
+
+  const std::size_t n = gaussians.size();
+  Buffer<float> pulls = some_gradient(n), seen = some_gradient(n);
+  const Buffer<std::uint32_t> counts(context_, std::vector<std::uint32_t>(n, 1));
+  compute::Program(context_, {"screen_statistics.cl"})
+      .kernel("screen_statistics")(compute::Range::linear(n, ITEM_GROUP), static_cast<std::int32_t>(n), counts,
+                                   some_gradient(2 * n), 1.0F, pulls, seen);
+  keep("pulls", pulls.download());
 }
 
 void Exercise::adam() {
@@ -226,6 +268,7 @@ int main(int argc, char** argv) {
     exercise.sorts();
     exercise.rasters();
     exercise.losses();
+    exercise.training_terms();
     exercise.adam();
     exercise.write(argv[1]);
   } catch (const std::exception& e) {

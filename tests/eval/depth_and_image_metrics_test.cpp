@@ -153,5 +153,23 @@ TEST(Ssim, AgreesWithTheFormulaOnOneWindow) {
   EXPECT_THROW(ssim(noise_image(10, 30, 1), noise_image(10, 30, 2)), InputError);
 }
 
+TEST(DepthMetrics, CountsErrorsWithinTheirSigmas) {
+  DepthMetrics metrics;
+  const DepthImage truth = (DepthImage(1, 6) << 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F);
+  const DepthImage estimate = (DepthImage(1, 6) << 1.005F, 0.985F, 1.025F, 1.5F, 1.5F, 0.0F);
+  // Unknown for the fifth, no estimate for the sixth.
+  const cv::Mat1f sigma = (cv::Mat1f(1, 6) << 0.01F, 0.01F, 0.01F, 0.01F, 0.0F, 0.01F);
+  metrics.add(estimate, truth, {}, sigma);
+  const DepthErrors errors = metrics.result();
+  EXPECT_EQ(errors.with_sigma, 4U);
+  EXPECT_DOUBLE_EQ(errors.within_sigmas[0], 0.25);
+  EXPECT_DOUBLE_EQ(errors.within_sigmas[1], 0.5);
+  EXPECT_DOUBLE_EQ(errors.within_sigmas[2], 0.75);
+  EXPECT_THROW(metrics.add(estimate, truth, {}, cv::Mat1f(2, 2, 0.1F)), InputError);
+  DepthMetrics without;
+  without.add(estimate, truth);
+  EXPECT_EQ(without.result().with_sigma, 0U);
+}
+
 }  // namespace
 }  // namespace odosplat
