@@ -18,9 +18,9 @@ struct Range {
 };
 constexpr std::array<Range, 4> ranges{Range{&SigmaModel::spread, 5.0F}, Range{&SigmaModel::slope_px, 4.0F},
                                       Range{&SigmaModel::depth_share, 0.05F}, Range{&SigmaModel::open_share, 5.0F}};
-// A factor of 0 could not grow again; half the spread where nothing is known of edges.
-constexpr SigmaModel least_measured{0.02F, 0.01F, 1e-4F, 1e-3F};
-constexpr SigmaModel least_of_surface{0.5F, 0.05F, 3e-4F, 1e-2F};
+// Half a per mille of depth is what no map here was better than; half the spread where nothing is known of edges.
+constexpr SigmaModel least_measured{0.1F, 0.05F, 5e-4F, 1e-3F};
+constexpr SigmaModel least_of_surface{0.5F, 0.05F, 5e-4F, 1e-2F};
 
 double variance_of(const SigmaSample& s, const SigmaModel& m) {
   const double spread = static_cast<double>(m.spread) * s.spread;

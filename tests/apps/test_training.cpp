@@ -21,7 +21,7 @@ using testing::HasSubstr;
 class Training : public testing::Test {
  protected:
   void SetUp() override {
-    write_tiny_sequence(scratch_ / "seq", 12);
+    write_tiny_sequence(scratch_ / "seq", 24);
     const RunResult made =
         run_odosplat({"cloud", sequence_, "--every", "3", "--voxel", "0.05", "--noise", "0.002", "--out", cloud_});
     ASSERT_EQ(made.status, 0) << made.err;
