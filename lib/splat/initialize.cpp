@@ -105,7 +105,7 @@ InitializeOptions InitializeOptions::preset(const std::string& name) {
   InitializeOptions options;
   if (name == "default") return options;
   if (name != "paper") throw InputError("preset", "must be default or paper, is \"" + name + "\"");
-  options.shape = InitialShape::random;
+  options.shape = InitialShape::round;
   options.scale_factor = 1.0F;
   return options;
 }
@@ -172,7 +172,6 @@ Gaussians gaussians_from_cloud(const PointCloud& input, const InitializeOptions&
       scale.z() *= options.flatness;
     } else {
       rotation = random_rotation(random);
-      for (Eigen::Index a = 0; a < 3; ++a) scale[a] *= static_cast<float>(std::exp2(random.uniform(-1.0, 1.0)));
       for (Eigen::Index c = 0; c < 3; ++c) color[c] = static_cast<float>(random.uniform());
     }
     if (cloud.has_colors()) color = cloud.colors[i];

@@ -14,7 +14,7 @@ namespace odosplat {
 /// How the Gaussians of a cloud are shaped before training.
 enum class InitialShape {
   discs,  // flat, on the surface: two equal axes in the plane of the normal, the third (its normal) short
-  random  // the paper's: random scale and rotation
+  round   // the paper's code: spheres as large as the neighbours' distance, rotated at random
 };
 
 struct InitializeOptions {
@@ -30,7 +30,7 @@ struct InitializeOptions {
   std::size_t budget = 0;        // at most this many Gaussians: a seeded random choice of the points; 0 = all of them
   std::uint64_t seed = 1;
 
-  /// "default", or "paper": random shapes as large as the neighbours' distance. Throws InputError else.
+  /// "default", or "paper": spheres as large as the neighbours' distance. Throws InputError else.
   static InitializeOptions preset(const std::string& name);
   /// Throws InputError naming the field.
   void check() const;
@@ -51,7 +51,7 @@ double noise_left(const PointCloud& cloud, const PointCloud& smoothed, const Ini
 /// three nearest neighbours). Differs: by default flat discs on the cloud's normals, because depth of round Gaussians
 /// lies up to one standard deviation before the surface; and points are smoothed first (smoothed_cloud). Positions in
 /// the cloud's world frame [m]. Axis 2 of a disc is its normal. Colours 0..1 go to the SH term of degree 0; a cloud
-/// without colours becomes grey (discs) or random (random). Throws InputError for an empty cloud, for points that are
+/// without colours becomes grey (discs) or random (round). Throws InputError for an empty cloud, for points that are
 /// not finite, and for bad options. Deterministic for a seed.
 Gaussians gaussians_from_cloud(const PointCloud& cloud, const InitializeOptions& options);
 

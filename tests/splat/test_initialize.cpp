@@ -92,7 +92,7 @@ TEST(GaussiansFromCloud, SmoothingKeepsAStep) {
 
 TEST(GaussiansFromCloud, RandomShapeIsSeeded) {
   InitializeOptions options;
-  options.shape = InitialShape::random;
+  options.shape = InitialShape::round;
   const Gaussians a = gaussians_from_cloud(plane_cloud(0.0), options);
   const Gaussians b = gaussians_from_cloud(plane_cloud(0.0), options);
   EXPECT_EQ(a.rotations, b.rotations);
@@ -120,7 +120,7 @@ TEST(GaussiansFromCloud, TinyCloudsGiveFiniteGaussians) {
   for (std::size_t n : {1U, 2U, 3U}) {
     PointCloud cloud;
     cloud.points.assign(n, Eigen::Vector3f(1, 2, 3));  // all in one place
-    for (const InitialShape shape : {InitialShape::discs, InitialShape::random}) {
+    for (const InitialShape shape : {InitialShape::discs, InitialShape::round}) {
       InitializeOptions options;
       options.shape = shape;
       const Gaussians g = gaussians_from_cloud(cloud, options);

@@ -224,7 +224,7 @@ TEST(Trainer, PaperPresetTrains) {
   EXPECT_EQ(options.iterations, 20000);
   options.iterations = 60;
   InitializeOptions shape = InitializeOptions::preset("paper");
-  EXPECT_EQ(shape.shape, InitialShape::random);
+  EXPECT_EQ(shape.shape, InitialShape::round);
   PointCloud cloud = CornerScene().cloud(0.06);
   Trainer trainer(compute::Context::open(), options, gaussians_from_cloud(cloud, shape), views);
   const double first = trainer.step().value.loss;
