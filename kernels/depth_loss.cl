@@ -38,7 +38,9 @@ __kernel void depth_loss(const __global float* restrict rendered, const __global
     } else {
       float v[8];
       vstore8(slope, 0, v);
-      for (int i = 0; x + i < width; ++i) gradient[begin + x + i] = v[i];
+      /* A loop of known length: v stays in registers. */
+      for (int i = 0; i < 8; ++i)
+        if (x + i < width) gradient[begin + x + i] = v[i];
     }
   }
   const float4 s4 = sum.lo + sum.hi, w4 = weights.lo + weights.hi;

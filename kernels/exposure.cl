@@ -10,22 +10,21 @@ __kernel void expose(int pixels, const __global float* restrict rendered, float8
   exposed[2 * pixels + i] = settings.s2 * rendered[2 * pixels + i] + settings.s5;
 }
 
-/* gradient [3 x height x width]: by the exposed image, becomes by the rendered one. rows [2 x 3 x height]: sums over a
-   row of the derivatives by gain and by offset. An item a row of a channel. */
-__kernel void expose_backward(int width, int height, const __global float* restrict rendered, float8 settings,
+/* One channel, whose gain is given: gradient [3 x height x width] by the exposed image becomes the one by the rendered
+   image. rows [2 x 3 x height]: sums over a row of the derivatives by gain and by offset. An item a row. */
+__kernel void expose_backward(int width, int height, int channel, float gain, const __global float* restrict rendered,
                               __global float* restrict gradient, __global float* restrict rows) {
-  const int item = get_global_id(0);
-  if (item >= 3 * height) return;
-  const int channel = item / height;
-  const float gain = channel == 0 ? settings.s0 : channel == 1 ? settings.s1 : settings.s2;
+  const int y = get_global_id(0);
+  if (y >= height) return;
+  const int row = channel * height + y;
   float by_gain = 0.0f, by_offset = 0.0f;
   for (int x = 0; x < width; ++x) {
-    const int i = item * width + x;
+    const int i = row * width + x;
     const float g = gradient[i];
     by_gain += g * rendered[i];
     by_offset += g;
     gradient[i] = gain * g;
   }
-  rows[item] = by_gain;
-  rows[3 * height + item] = by_offset;
+  rows[row] = by_gain;
+  rows[3 * height + row] = by_offset;
 }

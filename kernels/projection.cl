@@ -38,7 +38,8 @@ inline gV make_gV(gF x, gF y, gF z) { return (float3)(x, y, z); }
 
 /* GW consecutive indices from `first` on, the last of n again beyond the end; values at GW places. */
 #if GW == 8
-inline gI group_of(int first, int n) { return min(first + LANES, n - 1); }
+/* Vectors on both sides: oclgrind takes wrong lanes for the scalar of min(vector, scalar). */
+inline gI group_of(int first, int n) { return min((gI)(first) + LANES, (gI)(n - 1)); }
 #define AT(i) values[at.s##i]
 inline gF gather_g(global const float* restrict values, gI at) { return (gF)EACH(AT); }
 #undef AT

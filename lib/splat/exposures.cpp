@@ -56,10 +56,11 @@ void Exposures::apply(int view, const compute::Buffer<float>& rendered, compute:
 
 void Exposures::backward(int view, const compute::Buffer<float>& rendered, int width, int height,
                          compute::Buffer<float>& gradient) {
-  const auto lines = static_cast<std::size_t>(3 * height);
-  rows_.resize(context_, 2 * lines);
-  backward_(Range::linear(lines, 8), std::int32_t{width}, std::int32_t{height}, rendered, kernel_settings(view),
-            gradient, rows_);
+  rows_.resize(context_, static_cast<std::size_t>(6 * height));
+  const std::array<float, 8> gains = kernel_settings(view);
+  for (std::int32_t channel = 0; channel < 3; ++channel)
+    backward_(Range::linear(static_cast<std::size_t>(height), 8), std::int32_t{width}, std::int32_t{height}, channel,
+              gains[static_cast<std::size_t>(channel)], rendered, gradient, rows_);
   const std::vector<float> rows = rows_.download();
   double* mine = &state_[static_cast<std::size_t>(view) * row];
   double* first = mine + settings;
