@@ -51,14 +51,14 @@ class Kernel {
   template <typename T>
   void set(unsigned index, const T& value) {
     static_assert(std::is_same_v<T, std::int32_t> || std::is_same_v<T, std::uint32_t> || std::is_same_v<T, float> ||
-                      is_vector<T>::value,
+                      IsVector<T>::value,
                   "kernel scalars are std::int32_t, std::uint32_t, float or std::array of 2, 4, 8 or 16 of them");
     set_bytes(index, &value, sizeof(value));
   }
   template <typename T>
-  struct is_vector : std::false_type {};
+  struct IsVector : std::false_type {};
   template <typename T, std::size_t N>
-  struct is_vector<std::array<T, N>> : std::bool_constant<sizeof(T) == 4 && (N == 2 || N == 4 || N == 8 || N == 16)> {};
+  struct IsVector<std::array<T, N>> : std::bool_constant<sizeof(T) == 4 && (N == 2 || N == 4 || N == 8 || N == 16)> {};
 
   void set_bytes(unsigned index, const void* value, std::size_t size);
   void launch(const Range& range, unsigned arguments);

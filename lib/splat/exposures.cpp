@@ -56,7 +56,7 @@ void Exposures::apply(int view, const compute::Buffer<float>& rendered, compute:
 
 void Exposures::backward(int view, const compute::Buffer<float>& rendered, int width, int height,
                          compute::Buffer<float>& gradient) {
-  rows_.resize(context_, static_cast<std::size_t>(6 * height));
+  rows_.resize(context_, settings * static_cast<std::size_t>(height));
   const std::array<float, 8> gains = kernel_settings(view);
   for (std::int32_t channel = 0; channel < 3; ++channel)
     backward_(Range::linear(static_cast<std::size_t>(height), 8), std::int32_t{width}, std::int32_t{height}, channel,

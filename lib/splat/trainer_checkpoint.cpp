@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 // What a run of training keeps in a checkpoint, and how it goes on from there.
+#include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -62,12 +64,10 @@ Checkpoint Trainer::checkpoint() const {
 void Trainer::resume(const Checkpoint& c) {
   const std::vector<std::string> theirs = lines_of(c.get_text("settings"));
   const std::vector<std::string> ours = lines_of(fingerprint());
-  for (std::size_t i = 0; i < std::max(theirs.size(), ours.size()); ++i) {
-    const std::string a = i < theirs.size() ? theirs[i] : "nothing";
-    const std::string b = i < ours.size() ? ours[i] : "nothing";
-    if (a != b)
-      throw InputError("checkpoint", "was written by another run: it has \"" + a + "\", this run has \"" + b + "\"");
-  }
+  const auto [a, b] = std::mismatch(theirs.begin(), theirs.end(), ours.begin(), ours.end());
+  if (a != theirs.end() || b != ours.end())
+    throw InputError("checkpoint", "was written by another run: it has \"" + (a != theirs.end() ? *a : "nothing") +
+                                       "\", this run has \"" + (b != ours.end() ? *b : "nothing") + "\"");
   const auto progress = c.get<std::int64_t>("progress");
   const auto last = c.get<double>("last");
   Gaussians g;

@@ -94,16 +94,9 @@ TrainingTargets::Stored TrainingTargets::render_depth(int view) const {
 
 void TrainingTargets::load_depth(int view, int level) {
   const std::pair<int, int> key(view, level);
-  auto found = cache_.find(key);
-  Stored fresh;
-  if (found == cache_.end()) {
-    fresh = render_depth(view);
-    if (fresh.bytes() <= room_) {
-      room_ -= fresh.bytes();
-      found = cache_.emplace(key, std::move(fresh)).first;
-    }
-  }
-  const Stored& stored = found != cache_.end() ? found->second : fresh;
+  const auto found = cache_.find(key);
+  Stored fresh = found == cache_.end() ? render_depth(view) : Stored();
+  const Stored& stored = found == cache_.end() ? fresh : found->second;
   values_.resize(stored.depth.size());
   std::transform(stored.depth.begin(), stored.depth.end(), values_.begin(),
                  [&](std::uint16_t steps) { return stored.unit * static_cast<float>(steps); });
@@ -113,6 +106,9 @@ void TrainingTargets::load_depth(int view, int level) {
                  [](std::uint8_t weight) { return static_cast<float>(weight) / 255.0F; });
   weight_.resize(context_, values_.size());
   weight_.upload(values_);
+  if (found != cache_.end() || fresh.bytes() > room_) return;
+  room_ -= fresh.bytes();
+  cache_.emplace(key, std::move(fresh));
 }
 
 }  // namespace odosplat
