@@ -22,7 +22,6 @@ constexpr std::size_t gpu_chunk = 16;
 
 PixelSelection::PixelSelection(const compute::Context& context, std::size_t lanes)
     : context_(context),
-      lanes_(lanes),
       program_(context, {"raster_common.cl", "projection.cl", "select.cl"}, "-D GW=" + std::to_string(lanes)),
       keep_(program_.kernel("keep_near_wanted", "select")),
       join_(program_.kernel("join_kept", "select")),

@@ -38,7 +38,6 @@ class PixelSelection {
   void mark(const Viewpoint& view, const std::vector<cv::Point>& pixels);
 
   compute::Context context_;
-  std::size_t lanes_;
   compute::Program program_;
   compute::Kernel keep_, join_, pick_;
   compute::Scan scan_;
