@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "odosplat/core/error.hpp"
 
@@ -20,41 +21,36 @@ double opacity_of(const Gaussians& g, std::size_t i) {
   return 1.0 / (1.0 + std::exp(-static_cast<double>(g.opacity_logits[i])));
 }
 
-template <typename T>
-void append_row(std::vector<T>& values, std::size_t i, std::size_t stride) {
-  if (values.empty()) return;
-  for (std::size_t k = 0; k < stride; ++k) values.push_back(values[i * stride + k]);
+/// Every array of floats that has a row for each Gaussian, with the length of a row.
+std::vector<std::pair<std::vector<float>*, std::size_t>> columns(TrainingRows& rows) {
+  Gaussians& g = rows.gaussians;
+  return {{&g.positions, 3},
+          {&g.log_scales, 3},
+          {&g.rotations, 4},
+          {&g.opacity_logits, 1},
+          {&g.sh, 3 * static_cast<std::size_t>(g.coefficients())},
+          {&rows.largest_log_scales, 3},
+          {&rows.anchors, 8}};
 }
 
 template <typename T>
-void keep_rows(std::vector<T>& values, const std::vector<bool>& keep, std::size_t stride) {
-  if (values.empty()) return;
-  std::size_t to = 0;
-  for (std::size_t i = 0; i < keep.size(); ++i) {
-    if (!keep[i]) continue;
-    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * stride), stride,
-                values.begin() + static_cast<std::ptrdiff_t>(to * stride));
-    ++to;
-  }
-  values.resize(to * stride);
-}
-
-void set_row(std::vector<float>& values, std::size_t to, std::size_t from, std::size_t stride) {
-  if (values.empty()) return;
+void copy_row(std::vector<T>& values, std::size_t from, std::size_t to, std::size_t stride) {
   std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(from * stride), stride,
               values.begin() + static_cast<std::ptrdiff_t>(to * stride));
 }
 
+template <typename T>
+void keep_rows(std::vector<T>& values, const std::vector<bool>& keep, std::size_t stride) {
+  std::size_t to = 0;
+  for (std::size_t i = 0; i < keep.size(); ++i)
+    if (keep[i]) copy_row(values, i, to++, stride);
+  values.resize(to * stride);
+}
+
 /// Row `to` becomes a copy of row `from`.
 void overwrite(TrainingRows& rows, std::size_t to, std::size_t from) {
-  Gaussians& g = rows.gaussians;
-  set_row(g.positions, to, from, 3);
-  set_row(g.log_scales, to, from, 3);
-  set_row(g.rotations, to, from, 4);
-  set_row(g.opacity_logits, to, from, 1);
-  set_row(g.sh, to, from, 3 * static_cast<std::size_t>(g.coefficients()));
-  set_row(rows.largest_log_scales, to, from, 3);
-  set_row(rows.anchors, to, from, 8);
+  for (const auto& [values, stride] : columns(rows))
+    if (!values->empty()) copy_row(*values, from, to, stride);
   rows.from[to] = -1;
 }
 
@@ -107,15 +103,14 @@ void DensifyOptions::check() const {
 }
 
 std::size_t TrainingRows::append_copy(std::size_t i) {
-  append_row(gaussians.positions, i, 3);
-  append_row(gaussians.log_scales, i, 3);
-  append_row(gaussians.rotations, i, 4);
-  append_row(gaussians.opacity_logits, i, 1);
-  append_row(gaussians.sh, i, 3 * static_cast<std::size_t>(gaussians.coefficients()));
-  append_row(largest_log_scales, i, 3);
-  append_row(anchors, i, 8);
+  const std::size_t to = size();
+  for (const auto& [values, stride] : columns(*this)) {
+    if (values->empty()) continue;
+    values->resize((to + 1) * stride);
+    copy_row(*values, i, to, stride);
+  }
   from.push_back(-1);
-  return size() - 1;
+  return to;
 }
 
 void TrainingRows::move(std::size_t i, const float shift[3]) {
@@ -128,13 +123,8 @@ void TrainingRows::move(std::size_t i, const float shift[3]) {
 }
 
 void TrainingRows::keep(const std::vector<bool>& wanted) {
-  keep_rows(gaussians.positions, wanted, 3);
-  keep_rows(gaussians.log_scales, wanted, 3);
-  keep_rows(gaussians.rotations, wanted, 4);
-  keep_rows(gaussians.opacity_logits, wanted, 1);
-  keep_rows(gaussians.sh, wanted, 3 * static_cast<std::size_t>(gaussians.coefficients()));
-  keep_rows(largest_log_scales, wanted, 3);
-  keep_rows(anchors, wanted, 8);
+  for (const auto& [values, stride] : columns(*this))
+    if (!values->empty()) keep_rows(*values, wanted, stride);
   keep_rows(from, wanted, 1);
 }
 
