@@ -2,10 +2,8 @@
 // Copyright 2026 The odosplat authors
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,16 +13,13 @@
 #include "odosplat/splat/initialize.hpp"
 #include "odosplat/splat/trainer.hpp"
 #include "splat/corner_scene.hpp"
+#include "splat/scratch.hpp"
 
 namespace odosplat {
 namespace {
 
 using test::CornerScene;
 using test::CornerViews;
-
-std::string temporary(const std::string& name) {
-  return (std::filesystem::temp_directory_path() / ("odosplat_" + std::to_string(getpid()) + "_" + name)).string();
-}
 
 bool same_bits(const Gaussians& a, const Gaussians& b) {
   const auto same = [](const std::vector<float>& x, const std::vector<float>& y) {
@@ -35,7 +30,8 @@ bool same_bits(const Gaussians& a, const Gaussians& b) {
 }
 
 TEST(Checkpoint, GivesBackWhatWasPut) {
-  const std::string path = temporary("round_trip");
+  const test::Scratch scratch;
+  const std::string path = scratch / "round_trip";
   Checkpoint written;
   written.put("floats", std::vector<float>{1.0F, -0.0F, 3e-42F});
   written.put("none", std::vector<double>{});
@@ -49,11 +45,11 @@ TEST(Checkpoint, GivesBackWhatWasPut) {
   EXPECT_EQ(read.get_text("text"), std::string("a\0b\n", 4));
   EXPECT_THROW(read.get<float>("other"), InputError);
   EXPECT_THROW(read.get<double>("floats"), InputError);  // 12 bytes
-  std::filesystem::remove(path);
 }
 
 TEST(Checkpoint, DamageIsFound) {
-  const std::string path = temporary("damage");
+  const test::Scratch scratch;
+  const std::string path = scratch / "damage";
   Checkpoint written;
   written.put("values", std::vector<float>(50, 2.5F));
   written.put_text("text", "settings");
@@ -69,8 +65,7 @@ TEST(Checkpoint, DamageIsFound) {
     write_file_atomically(path, flipped);
     EXPECT_THROW(Checkpoint::read(path), InputError) << "bit at " << at;
   }
-  std::filesystem::remove(path);
-  EXPECT_THROW(Checkpoint::read(path), InputError);
+  EXPECT_THROW(Checkpoint::read(scratch / "missing"), InputError);
 }
 
 /// A run with everything that has state: depth, anchors, exposures, densification.
@@ -102,7 +97,8 @@ TEST_P(Resume, EndsWithTheBitsOfAnUninterruptedRun) {
   Trainer whole(context, options, initial, views, &surface);
   while (!whole.done()) whole.step();
 
-  const std::string path = temporary("resume");
+  const test::Scratch scratch;
+  const std::string path = scratch / "resume";
   for (const int stop : {1, 8, 19, 33}) {
     Trainer first(context, options, initial, views, &surface);
     while (first.iteration() < stop) first.step();
@@ -115,7 +111,6 @@ TEST_P(Resume, EndsWithTheBitsOfAnUninterruptedRun) {
     EXPECT_EQ(second.report().psnr_db, whole.report().psnr_db);
     EXPECT_EQ(second.report().depth_error, whole.report().depth_error);
   }
-  std::filesystem::remove(path);
   if (GetParam() == DensifyMethod::relocate) {
     EXPECT_GT(whole.gaussians().size(), initial.size());
   }
