@@ -2,18 +2,18 @@
 // Copyright 2026 The odosplat authors
 #include "track.hpp"
 
-#include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "frame_reader.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
-#include "odosplat/eval/statistics.hpp"
 #include "odosplat/io/atomic_file.hpp"
-#include "odosplat/io/trajectory_file.hpp"
+#include "playback.hpp"
+#include "track_record.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -38,70 +38,66 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence) {
   throw InputError(sequence.name(), "it has no true pose to start from; give --start \"tx ty tz qx qy qz qw\"");
 }
 
-/// Everything that a run writes, gathered frame by frame.
-class Recorder {
+/// [s] that all threads of the process have run.
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// A run in the making: what the two ways of playing a sequence share.
+class Run {
  public:
-  void add(const Sequence& sequence, std::size_t i, const TrackResult& result) {
-    const std::string stamp = sequence.time_text(i);
-    if (result.status != TrackStatus::lost) live_.push_back({sequence.time(i), result.T_world_camera, stamp});
-    char line[160];
-    std::snprintf(line, sizeof(line), ",%s,%d,%.4f,%.3f\n", to_string(result.status).c_str(), result.keyframe ? 1 : 0,
-                  result.inlier_share, result.milliseconds);
-    status_ += stamp + line;
-    milliseconds_.push_back(result.milliseconds);
-    stamps_.push_back(stamp);
-    times_.push_back(sequence.time(i));
-  }
+  Run(const Sequence& sequence, OpenedView& opened, Odometry& odometry, TrackRecord& record)
+      : sequence_(sequence),
+        opened_(opened),
+        odometry_(odometry),
+        record_(record),
+        reader_(sequence),
+        progress_("track", static_cast<long>(sequence.size())) {}
 
-  TrackOutcome outcome(const Odometry& odometry) const {
-    TrackOutcome o;
-    o.trajectory = odometry.trajectory();
-    // The odometry knows times as numbers; files repeat the stamps of the input.
-    std::size_t k = 0;
-    for (StampedPose& pose : o.trajectory) {
-      while (times_[k] != pose.time) ++k;
-      pose.time_text = stamps_[k];
+  /// Every frame, one after the other. False after Ctrl-C.
+  bool play() {
+    for (std::size_t i = 0; i < sequence_.size(); ++i) {
+      if (interrupted()) return false;
+      track(i);
     }
-    const OdometryStatistics s = odometry.statistics();
-    o.frames = s.frames;
-    o.posed = s.posed;
-    o.lost = s.lost;
-    o.relocalisations = s.relocalisations;
-    o.keyframes = s.keyframes;
-    std::vector<double> sorted = milliseconds_;
-    std::sort(sorted.begin(), sorted.end());
-    o.median_ms = percentile(sorted, 50.0);
-    o.p95_ms = percentile(sorted, 95.0);
-    return o;
+    progress_.finish();
+    return true;
   }
 
-  void write(const TrackJob& job, const TrackOutcome& o, const OdometryStatistics& s, const std::string& device) const {
-    nlohmann::ordered_json stages = nlohmann::ordered_json::object();
-    for (const StageTime& stage : s.stages) stages[stage.name] = stage.milliseconds;
-    const nlohmann::ordered_json report{{"method", job.method},
-                                        {"frames", o.frames},
-                                        {"posed", o.posed},
-                                        {"lost", o.lost},
-                                        {"relocalisations", o.relocalisations},
-                                        {"keyframes", o.keyframes},
-                                        {"ms_per_frame", {{"median", o.median_ms}, {"p95", o.p95_ms}}},
-                                        {"stages_ms", stages},
-                                        {"peak_memory_mb", peak_memory_mb()},
-                                        {"device", device},
-                                        {"seed", job.seed},
-                                        {"version", ODOSPLAT_VERSION}};
-    write_trajectory(job.out + "/trajectory.txt", o.trajectory);
-    write_trajectory(job.out + "/trajectory_live.txt", live_);
-    write_file_atomically(job.out + "/status.csv", "time,status,keyframe,inlier_share,milliseconds\n" + status_);
-    write_file_atomically(job.out + "/report.json", report.dump(2) + "\n");
+  /// At the sequence's own rate: frames that are no longer the newest are dropped.
+  bool play_in_real_time() {
+    Playback playback(sequence_);
+    while (const std::optional<std::size_t> i = playback.next()) {
+      if (interrupted()) return false;
+      record_.drop(playback.dropped());
+      track(*i);
+    }
+    odometry_.finish();
+    progress_.finish();
+    return true;
   }
 
  private:
-  Trajectory live_;
-  std::string status_;
-  std::vector<double> milliseconds_;
-  std::vector<std::string> stamps_;
-  std::vector<double> times_;
+  void track(std::size_t i) {
+    std::shared_ptr<SensorView> view;
+    if (opened_.sensor != nullptr) {
+      // A keyframe that is made later must see the depth of its own frame.
+      view = std::make_shared<SensorView>(*opened_.sensor);
+      view->set_depth(sequence_.has_depth(i) ? sequence_.depth(i) : DepthImage());
+    }
+    const TrackResult result = odometry_.track(reader_.take(i), sequence_.time(i), view);
+    record_.add(sequence_, i, result);
+    const OdometryStatistics& s = odometry_.statistics();
+    std::string words = to_string(result.status) + "  " + std::to_string(s.keyframes) + " keyframes  " +
+                        std::to_string(s.lost) + " lost";
+    if (record_.dropped() > 0) words += "  " + std::to_string(record_.dropped()) + " dropped";
+    progress_.update(static_cast<long>(i) + 1, words);
+  }
+
+  const Sequence& sequence_;
+  OpenedView& opened_;
+  Odometry& odometry_;
+  TrackRecord& record_;
+  FrameReader reader_;
+  Progress progress_;
 };
 
 }  // namespace
@@ -110,6 +106,7 @@ OdometryOptions odometry_options(const TrackJob& job) {
   OdometryOptions options;
   options.keyframe.anchor.enabled = job.anchor;
   options.keyframe.selector.seed = job.seed;
+  options.background = job.realtime;
   return options;
 }
 
@@ -119,23 +116,21 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
   if (sequence.size() == 0) throw InputError(sequence.name(), "holds no images");
   OpenedView opened = open_view(common, job.method, job.map);
   const SE3 T_world_camera_start = start_pose(job, sequence);
-  Odometry odometry(sequence.camera(), *opened.view, odometry_options(job), T_world_camera_start);
-  Recorder recorder;
-  Progress progress("track", static_cast<long>(sequence.size()));
-  std::size_t i = 0;
-  for (; i < sequence.size() && !interrupted(); ++i) {
-    if (opened.sensor != nullptr) opened.sensor->set_depth(sequence.has_depth(i) ? sequence.depth(i) : DepthImage());
-    const TrackResult result = odometry.track(sequence.gray(i), sequence.time(i));
-    recorder.add(sequence, i, result);
-    progress.update(static_cast<long>(i) + 1, to_string(result.status) + "  " +
-                                                  std::to_string(odometry.statistics().keyframes) + " keyframes  " +
-                                                  std::to_string(odometry.statistics().lost) + " lost");
+  // The first rendering loads the device's programs, which a camera would not wait for.
+  if (job.realtime && opened.sensor == nullptr) {
+    opened.view->render(sequence.camera(), T_world_camera_start, {true, true});
   }
-  progress.finish();
-  const TrackOutcome outcome = recorder.outcome(odometry);
-  recorder.write(job, outcome, odometry.statistics(), opened.device ? opened.device->device().name : "none");
+  Odometry odometry(sequence.camera(), *opened.view, odometry_options(job), T_world_camera_start);
+  TrackRecord record;
+  const double cpu_before = cpu_seconds();
+  const bool played = [&] {
+    Run run(sequence, opened, odometry, record);
+    return job.realtime ? run.play_in_real_time() : run.play();
+  }();
+  const TrackOutcome outcome = record.outcome(odometry, cpu_seconds() - cpu_before);
+  record.write(job, outcome, odometry, opened.device ? opened.device->device().name : "none");
   if (opened.device) print_profile(common, *opened.device);
-  if (i < sequence.size()) throw Interrupted();
+  if (!played) throw Interrupted();
   return outcome;
 }
 
@@ -146,17 +141,25 @@ void add_track(CLI::App& app, Common& common) {
   add_sequence_flags(command, job->sequence);
   add_map_flags(command, job->map);
   command->add_option("--method", job->method, "gaussian, paper, interpolation or rgbd");
-  command->add_option("--out", job->out, "folder for trajectory.txt, trajectory_live.txt, status.csv, report.json")
+  command
+      ->add_option("--out", job->out,
+                   "folder for trajectory.txt, trajectory_live.txt, status.csv, covariance.csv, report.json")
       ->required();
   command->add_option("--start", job->start, "pose of the first image: truth, or \"tx ty tz qx qy qz qw\" [m]");
   command->add_option("--anchor", *anchor, "align keyframes with the map's rendered image: on or off")
       ->check(CLI::IsMember({"on", "off"}));
+  command->add_flag("--realtime", job->realtime,
+                    "play at the sequence's rate: keyframes in the background, late frames are dropped (default: every "
+                    "frame, same bits every time)");
   command->add_option("--seed", job->seed, "seed of the pixel selector");
   command->final_callback([&common, job, anchor] {
     job->anchor = *anchor == "on";
     const TrackOutcome o = track_sequence(common, *job);
     std::printf("%s: %d of %d frames posed, %d lost, %d keyframes, %.1f ms a frame (95 %%: %.1f ms)\n",
                 job->out.c_str(), o.posed, o.frames, o.lost, o.keyframes, o.median_ms, o.p95_ms);
+    if (job->realtime) {
+      std::printf("in real time: %d of %d frames dropped\n", o.dropped, o.dropped + o.frames);
+    }
   });
 }
 

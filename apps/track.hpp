@@ -16,25 +16,28 @@ struct TrackJob {
   std::string out;
   std::string start = "truth";  // or "tx ty tz qx qy qz qw"
   bool anchor = true;
+  bool realtime = false;  // at the sequence's rate, late frames dropped
   std::uint64_t seed = 3141592;
 };
 
 struct TrackOutcome {
   Trajectory trajectory;  // final estimate
-  int frames = 0;
+  int frames = 0;         // tracked
+  int dropped = 0;        // besides, in real time
   int posed = 0;
   int lost = 0;
   int relocalisations = 0;
   int keyframes = 0;
   double median_ms = 0.0;
   double p95_ms = 0.0;
+  double cpu_ms = 0.0;  // CPU time of all threads a frame, reading included
 };
 
 /// How the odometry is set for this method and these flags.
 OdometryOptions odometry_options(const TrackJob& job);
 
-/// Tracks a sequence in a map and writes trajectory.txt, trajectory_live.txt, status.csv and report.json to the
-/// folder `out`. After Ctrl-C the files hold the frames so far, and Interrupted is thrown.
+/// Tracks a sequence in a map and writes trajectory.txt, trajectory_live.txt, status.csv, covariance.csv and
+/// report.json to the folder `out`. After Ctrl-C the files hold the frames so far, and Interrupted is thrown.
 TrackOutcome track_sequence(const Common& common, const TrackJob& job);
 
 }  // namespace odosplat::apps

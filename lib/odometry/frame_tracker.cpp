@@ -54,7 +54,7 @@ TrackedFrame FrameTracker::track(const FramePyramid& pyramid, double time) {
   last_inlier_share_ = alignment.inlier_share;
   const double first_rmse = first_rmse_;
   if (first_rmse_ <= 0.0) first_rmse_ = std::max(alignment.rmse, 1.0 / 255);
-  frame.keyframe_due = keyframe_score(*host.points, alignment, first_rmse, options_.policy).score > 1.0;
+  frame.keyframe_score = keyframe_score(*host.points, alignment, first_rmse, options_.policy).score;
   return frame;
 }
 
@@ -71,6 +71,11 @@ void FrameTracker::set_references(std::vector<ReferenceFrame> references) {
   for (std::size_t k = 0; k < references_.size(); ++k) {
     if (references_[k].id == current_before) current_ = k;
   }
+}
+
+void FrameTracker::set_references(std::vector<ReferenceFrame> references, const SE3& T_new_old) {
+  set_references(std::move(references));
+  history_.move(T_new_old);
 }
 
 void FrameTracker::confirm(double time, const SE3& T_world_camera) {

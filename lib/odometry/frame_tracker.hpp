@@ -44,7 +44,8 @@ struct TrackedFrame {
   SE3 T_world_camera;
   Brightness brightness;                   // of the frame itself
   Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera, before any factor
-  bool keyframe_due = false;
+  double keyframe_score = 0.0;             // beyond 1 the frame should become a keyframe
+  bool keyframe_due() const { return keyframe_score > 1.0; }
 };
 
 /// The odometry's front end: aligns every frame with the newest keyframe, from several guesses if need be; after a loss
@@ -55,6 +56,8 @@ class FrameTracker {
 
   /// No keyframe to compare with yet.
   bool empty() const { return references_.empty(); }
+  /// Not if empty().
+  const ReferenceFrame& newest() const { return references_.back(); }
 
   /// Finds the frame. The caller tells the pose at last by confirm(), as a keyframe may change it, or by lose().
   TrackedFrame track(const FramePyramid& pyramid, double time);
@@ -62,6 +65,10 @@ class FrameTracker {
   /// Takes over what the back end says of its keyframes (oldest first, not empty). Frames are compared with the newest
   /// from now on if that is new; else with the same one as before, where it is.
   void set_references(std::vector<ReferenceFrame> references);
+
+  /// The same where frames have passed since the newest keyframe's own: their poses, tracked against another, are moved
+  /// by T_new_old on the left.
+  void set_references(std::vector<ReferenceFrame> references, const SE3& T_new_old);
 
   /// The last frame is at T_world_camera.
   void confirm(double time, const SE3& T_world_camera);

@@ -3,6 +3,7 @@
 #include "odosplat/odometry/keyframe_backend.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace odosplat {
 namespace {
@@ -30,20 +31,33 @@ KeyframeBackend::KeyframeBackend(const Camera& camera, MapView& map, const Track
 
 KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   const AnchorOptions& anchor = options_.keyframe.anchor;
+  MapView& map = request.view != nullptr ? *request.view : map_;
   SE3 T_world_keyframe = request.T_world_camera;
+  // What was rendered ahead shows what the anchor's alignment will find, only its pose is another than the frame's: a
+  // keyframe that is not anchored cannot be made from it.
+  std::optional<RenderedView> ahead = std::exchange(prefetched_, std::nullopt);
+  if (ahead && (!anchor.enabled || request.view != nullptr ||
+                view_flow(camera_, *ahead, request.T_world_camera) > anchor.render_again_flow)) {
+    ahead.reset();
+  }
   MadeKeyframe made;
   double corrected = 0.0;
+  bool prefetched = false;
   // Seen from where the map says the camera is, if that is elsewhere: depth and colour must belong to the pixel.
   for (int attempt = 0; attempt < 3; ++attempt) {
-    ViewImages view;
-    {
-      const StageTimer timer(stages_[stage_render]);
-      view = map_.render(camera_, T_world_keyframe, {anchor.enabled, true});
-    }
+    prefetched = attempt == 0 && ahead.has_value();
+    if (prefetched) T_world_keyframe = ahead->T_world_camera;
+    const ViewImages view = prefetched ? ahead->images : render(map, T_world_keyframe);
     const StageTimer timer(stages_[stage_keyframe]);
     made = maker_.make(*request.pyramid, view, T_world_keyframe, request.brightness, tracker_);
+    if (prefetched && !made.anchored) {
+      T_world_keyframe = request.T_world_camera;
+      continue;
+    }
     if (!made.anchored) break;
-    corrected = std::max(corrected, made.map_flow);
+    corrected =
+        std::max(corrected, prefetched ? view_flow(camera_, {made.T_world_camera_map, view}, request.T_world_camera)
+                                       : made.map_flow);
     T_world_keyframe = made.T_world_camera_map;
     if (made.map_flow <= anchor.render_again_flow) break;
   }
@@ -52,6 +66,7 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   if (made.keyframe == nullptr) return outcome;
   outcome.made = true;
   outcome.anchored = made.anchored;
+  outcome.prefetched = prefetched;
   const std::shared_ptr<Keyframe>& keyframe = made.keyframe;
   keyframe->id = request.id;
   keyframe->frame = request.frame;
@@ -67,6 +82,15 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   }
   outcome.window = references();
   return outcome;
+}
+
+void KeyframeBackend::prefetch(const SE3& T_world_camera) {
+  prefetched_ = RenderedView{T_world_camera, render(map_, T_world_camera)};
+}
+
+ViewImages KeyframeBackend::render(MapView& map, const SE3& T_world_camera) {
+  const StageTimer timer(stages_[stage_render]);
+  return map.render(camera_, T_world_camera, {options_.keyframe.anchor.enabled, true});
 }
 
 std::vector<ReferenceFrame> KeyframeBackend::references() const {

@@ -2,11 +2,14 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/odometry/keyframe_maker.hpp"
 #include "odosplat/odometry/reference_frame.hpp"
+#include "odosplat/odometry/rendered_view.hpp"
 #include "odosplat/odometry/stage_times.hpp"
 #include "odosplat/odometry/window.hpp"
 #include "odosplat/odometry/window_optimizer.hpp"
@@ -23,10 +26,11 @@ struct KeyframeBackendOptions {
 
 /// A tracked frame that should become a keyframe.
 struct KeyframeRequest {
-  const FramePyramid* pyramid = nullptr;
-  int id = 0;         // the keyframe's number, if it is made
-  int frame = 0;      // counts images from 0
-  double time = 0.0;  // [s]
+  std::shared_ptr<const FramePyramid> pyramid;
+  std::shared_ptr<MapView> view;  // to look at in the map's place, as with a depth sensor; null: the map
+  int id = 0;                     // the keyframe's number, if it is made
+  int frame = 0;                  // counts images from 0
+  double time = 0.0;              // [s]
   SE3 T_world_camera;
   Brightness brightness;
 };
@@ -35,6 +39,7 @@ struct KeyframeRequest {
 struct KeyframeOutcome {
   bool made = false;  // false: the map shows too little there; the window is as it was
   bool anchored = false;
+  bool prefetched = false;             // made from the view that was rendered ahead
   double map_share = 0.0;              // share of the image where the map has depth
   std::vector<ReferenceFrame> window;  // all keyframes as they are now, oldest first
 };
@@ -48,11 +53,17 @@ class KeyframeBackend {
 
   KeyframeOutcome add(const KeyframeRequest& request);
 
+  /// Renders the map where the next keyframe will probably be. The next keyframe is made from this view if its frame
+  /// lies within render_again_flow of it: no farther off than an anchored keyframe may lie from the view rendered for
+  /// it.
+  void prefetch(const SE3& T_world_camera);
+
   const Window& window() const { return window_; }
   /// render, keyframe, optimise.
   const std::vector<StageTime>& stages() const { return stages_; }
 
  private:
+  ViewImages render(MapView& map, const SE3& T_world_camera);
   std::vector<ReferenceFrame> references() const;
 
   Camera camera_;
@@ -62,6 +73,7 @@ class KeyframeBackend {
   KeyframeMaker maker_;
   WindowOptimizer optimizer_;
   Window window_;
+  std::optional<RenderedView> prefetched_;
   std::vector<StageTime> stages_{{"render"}, {"keyframe"}, {"optimise"}};
 };
 

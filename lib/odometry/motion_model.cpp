@@ -13,6 +13,11 @@ void MotionHistory::add(double time, const SE3& T_world_camera) {
   has_last = true;
 }
 
+void MotionHistory::move(const SE3& T_new_old) {
+  last = T_new_old * last;
+  previous = T_new_old * previous;
+}
+
 namespace {
 
 /// The last pose moved on by the last step, scaled by s.

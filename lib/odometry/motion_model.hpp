@@ -21,6 +21,8 @@ struct MotionHistory {
   /// Forgets the velocity (after a loss), not the place.
   void stop() { has_velocity = false; }
   void clear() { *this = {}; }
+  /// What was known as T is T_new_old * T: the world about the camera has been corrected.
+  void move(const SE3& T_new_old);
 };
 
 /// Constant velocity in the camera's own frame; the last pose when there is no velocity. history.has_last must hold.

@@ -15,6 +15,12 @@ namespace {
 
 constexpr int directions = 16;
 
+// Bits of a candidate: the levels whose gradient there is above the threshold.
+constexpr uchar on_no_level = 0;
+constexpr uchar on_level0 = 1;
+constexpr uchar on_level1 = 2;
+constexpr uchar on_level2 = 4;
+
 /// Best pixel of a cell so far.
 struct Best {
   cv::Point pixel{-1, -1};
@@ -82,8 +88,49 @@ cv::Mat1f PixelSelector::thresholds(const GradientImage& gradient) const {
   return smooth;
 }
 
-std::vector<cv::Point> PixelSelector::pick(std::span<const GradientImage> gradients, const cv::Mat1b& mask,
-                                           const cv::Mat1f& squared_thresholds, int cell) const {
+cv::Mat1b PixelSelector::candidates(std::span<const GradientImage> gradients, const cv::Mat1b& mask) const {
+  const GradientImage& full = gradients[0];
+  cv::Mat1f threshold_of_region = thresholds(full);
+  for (float& t : threshold_of_region) t *= t;
+  const float factor1 = static_cast<float>(options_.level_factor * options_.level_factor);
+  const float factor2 = factor1 * factor1;
+  const auto reach = [&](std::size_t level, int GradientImage::*side) {
+    return gradients.size() > level ? gradients[level].*side << level : 0;
+  };
+  const int cols1 = std::min(reach(1, &GradientImage::cols), full.cols);
+  const int cols2 = std::min(reach(2, &GradientImage::cols), full.cols);
+  const int rows1 = reach(1, &GradientImage::rows);
+  const int rows2 = reach(2, &GradientImage::rows);
+  std::vector<float> threshold(static_cast<std::size_t>(full.cols));
+  cv::Mat1b levels(full.size(), on_no_level);
+  for (int y = options_.border; y < full.rows - options_.border; ++y) {
+    const float* regions = threshold_of_region[std::min(y / options_.block, threshold_of_region.rows - 1)];
+    for (int x = 0; x < full.cols; ++x) {
+      threshold[static_cast<std::size_t>(x)] = regions[std::min(x / options_.block, threshold_of_region.cols - 1)];
+    }
+    const float* t = threshold.data();
+    uchar* out = levels[y];
+    const float* g = full.ptr<float>(y) + 3;
+    for (int x = 0; x < full.cols; ++x) out[x] = g[4 * x] > t[x] ? on_level0 : on_no_level;
+    if (y < rows1) {
+      const float* h = gradients[1].ptr<float>(y / 2) + 3;
+      for (int x = 0; x < cols1; ++x)
+        out[x] = static_cast<uchar>(out[x] | (h[4 * (x / 2)] > t[x] * factor1 ? on_level1 : on_no_level));
+    }
+    if (y < rows2) {
+      const float* h = gradients[2].ptr<float>(y / 4) + 3;
+      for (int x = 0; x < cols2; ++x)
+        out[x] = static_cast<uchar>(out[x] | (h[4 * (x / 4)] > t[x] * factor2 ? on_level2 : on_no_level));
+    }
+    if (mask.empty()) continue;
+    const uchar* allowed = mask[y];
+    for (int x = 0; x < full.cols; ++x) out[x] = allowed[x] != 0 ? out[x] : on_no_level;
+  }
+  return levels;
+}
+
+std::vector<cv::Point> PixelSelector::pick(std::span<const GradientImage> gradients, const cv::Mat1b& levels,
+                                           int cell) const {
   std::array<cv::Point2f, directions> direction;
   for (int k = 0; k < directions; ++k) {
     const double angle = std::numbers::pi * k / directions;
@@ -91,13 +138,11 @@ std::vector<cv::Point> PixelSelector::pick(std::span<const GradientImage> gradie
   }
   Random random(options_.seed);
   const auto any_direction = [&] { return direction[random.below(directions)]; };
-  const GradientImage& full = gradients[0];
-  const float factor1 = static_cast<float>(options_.level_factor * options_.level_factor);
-  const float factor2 = factor1 * factor1;
-  const int border = options_.border;
+  const int rows = levels.rows - options_.border;
+  const int cols = levels.cols - options_.border;
   std::vector<cv::Point> picked;
-  for (int y4 = border; y4 < full.rows - border; y4 += 4 * cell) {
-    for (int x4 = border; x4 < full.cols - border; x4 += 4 * cell) {
+  for (int y4 = options_.border; y4 < rows; y4 += 4 * cell) {
+    for (int x4 = options_.border; x4 < cols; x4 += 4 * cell) {
       Best best4;
       bool any4 = false;
       const cv::Point2f direction4 = any_direction();
@@ -112,22 +157,16 @@ std::vector<cv::Point> PixelSelector::pick(std::span<const GradientImage> gradie
           const int y1 = y2 + (sixteenth >> 1) * cell;
           Best best1;
           const cv::Point2f direction1 = any_direction();
-          for (int y = y1; y < std::min(y1 + cell, full.rows - border); ++y) {
-            const float* g = full.ptr<float>(y) + 4 * x1;
-            const uchar* allowed = mask.empty() ? nullptr : mask[y];
-            const int j = std::min(y / options_.block, squared_thresholds.rows - 1);
-            for (int x = x1; x < std::min(x1 + cell, full.cols - border); ++x, g += 4) {
-              if (allowed != nullptr && allowed[x] == 0) continue;
-              const float threshold = squared_thresholds(j, std::min(x / options_.block, squared_thresholds.cols - 1));
-              if (g[3] > threshold) best1.offer({x, y}, score(g, direction1));
-              if (gradients.size() > 1 && y / 2 < gradients[1].rows && x / 2 < gradients[1].cols) {
-                const float* h = gradients[1].ptr<float>(y / 2) + 4 * (x / 2);
-                if (h[3] > threshold * factor1) best2.offer({x, y}, score(h, direction2));
-              }
-              if (gradients.size() > 2 && y / 4 < gradients[2].rows && x / 4 < gradients[2].cols) {
-                const float* h = gradients[2].ptr<float>(y / 4) + 4 * (x / 4);
-                if (h[3] > threshold * factor2) best4.offer({x, y}, score(h, direction4));
-              }
+          for (int y = y1; y < std::min(y1 + cell, rows); ++y) {
+            const uchar* candidate = levels[y];
+            for (int x = x1; x < std::min(x1 + cell, cols); ++x) {
+              if (candidate[x] == on_no_level) continue;
+              const auto gradient = [&](std::size_t level) {
+                return gradients[level].ptr<float>(y >> level) + 4 * (x >> level);
+              };
+              if ((candidate[x] & on_level0) != 0) best1.offer({x, y}, score(gradient(0), direction1));
+              if ((candidate[x] & on_level1) != 0) best2.offer({x, y}, score(gradient(1), direction2));
+              if ((candidate[x] & on_level2) != 0) best4.offer({x, y}, score(gradient(2), direction4));
             }
           }
           if (best1.found()) {
@@ -150,9 +189,8 @@ std::vector<cv::Point> PixelSelector::pick(std::span<const GradientImage> gradie
 std::vector<cv::Point> PixelSelector::select(std::span<const GradientImage> gradients, const cv::Mat1b& mask,
                                              int wanted) {
   if (gradients.empty() || gradients[0].empty() || wanted <= 0) return {};
-  cv::Mat1f squared = thresholds(gradients[0]);
-  for (float& t : squared) t *= t;
-  std::vector<cv::Point> picked = pick(gradients, mask, squared, cell_);
+  const cv::Mat1b levels = candidates(gradients, mask);
+  std::vector<cv::Point> picked = pick(gradients, levels, cell_);
   // The number of pixels falls about with the square of the cell's side; two corrections at most.
   for (int attempt = 0; attempt < 2; ++attempt) {
     const double ratio = static_cast<double>(picked.size()) / wanted;
@@ -160,7 +198,7 @@ std::vector<cv::Point> PixelSelector::select(std::span<const GradientImage> grad
     const int better = std::clamp(static_cast<int>(std::lround((cell_ + 0.5) * std::sqrt(ratio) - 0.5)), 1, 64);
     if (better == cell_) break;
     cell_ = better;
-    picked = pick(gradients, mask, squared, cell_);
+    picked = pick(gradients, levels, cell_);
   }
   if (static_cast<double>(picked.size()) > 1.25 * wanted) {
     Random random(options_.seed + 1);

@@ -42,8 +42,10 @@ class PixelSelector {
   cv::Mat1f thresholds(const GradientImage& gradient) const;
 
  private:
-  std::vector<cv::Point> pick(std::span<const GradientImage> gradients, const cv::Mat1b& mask,
-                              const cv::Mat1f& squared_thresholds, int cell) const;
+  /// A byte a pixel: a bit for each of up to three levels whose gradient there is above the pixel's threshold. 0 where
+  /// no pixel may be picked.
+  cv::Mat1b candidates(std::span<const GradientImage> gradients, const cv::Mat1b& mask) const;
+  std::vector<cv::Point> pick(std::span<const GradientImage> gradients, const cv::Mat1b& levels, int cell) const;
 
   SelectorOptions options_;
   int cell_ = 3;

@@ -6,8 +6,8 @@
 
 namespace odosplat {
 
-void TrajectoryRecord::add_frame(double time, int keyframe, const SE3& T_keyframe_camera) {
-  frames_.push_back({time, keyframe, T_keyframe_camera});
+void TrajectoryRecord::add_frame(double time, int keyframe, const SE3& T_keyframe_camera, bool found_again) {
+  frames_.push_back({time, keyframe, T_keyframe_camera, found_again});
 }
 
 int TrajectoryRecord::add_keyframe(double time, const SE3& T_world_camera) {
@@ -18,11 +18,25 @@ int TrajectoryRecord::add_keyframe(double time, const SE3& T_world_camera) {
   const auto at = std::lower_bound(frames_.begin(), frames_.end(), time,
                                    [](const Frame& frame, double stamp) { return frame.time < stamp; });
   if (at != frames_.end() && at->time == time) {
-    keyframe.previous = at->keyframe;
-    keyframe.T_previous_camera = at->T_keyframe_camera;
-    *at = {time, id, SE3()};
+    const int previous = at->keyframe;
+    const SE3 T_keyframe_previous = at->T_keyframe_camera.inverse();
+    for (auto later = at + 1; later != frames_.end() && !later->found_again; ++later) {
+      if (later->keyframe == previous) {
+        *later = {later->time, id, T_keyframe_previous * later->T_keyframe_camera};
+      }
+    }
+    bool lost_between = at->found_again;
+    for (auto earlier = at; !lost_between && earlier != frames_.begin(); --earlier) {
+      if (earlier->time <= keyframes_[static_cast<std::size_t>(previous)].time) break;
+      lost_between = earlier->found_again;
+    }
+    if (!lost_between) {
+      keyframe.previous = previous;
+      keyframe.T_previous_camera = at->T_keyframe_camera;
+    }
+    *at = {time, id, SE3(), at->found_again};
   } else {
-    frames_.insert(at, {time, id, SE3()});
+    frames_.insert(at, {time, id, SE3(), false});
   }
   keyframes_.push_back(keyframe);
   return id;

@@ -13,14 +13,21 @@ namespace odosplat {
 /// in the order of add_keyframe.
 class TrajectoryRecord {
  public:
-  /// Frames come in order of time.
-  void add_frame(double time, int keyframe, const SE3& T_keyframe_camera);
+  /// Frames come in order of time. found_again: the frames before it were lost.
+  void add_frame(double time, int keyframe, const SE3& T_keyframe_camera, bool found_again = false);
 
   /// A frame has become the next keyframe, with T_world_camera as first estimate. If the frame was added before, its
-  /// place against its own keyframe is kept as the far end of that keyframe's frames. Returns the keyframe's number.
+  /// place against its own keyframe is kept as the far end of that keyframe's frames, unless the camera was lost in
+  /// between. Frames that came after it and
+  /// were tracked against the same keyframe as it was are the new keyframe's from now on, where they stood relative to
+  /// it. Returns the keyframe's number.
   int add_keyframe(double time, const SE3& T_world_camera);
 
   void move_keyframe(int keyframe, const SE3& T_world_camera);
+
+  /// When the keyframe's image was taken [s].
+  double keyframe_time(int keyframe) const { return keyframes_[static_cast<std::size_t>(keyframe)].time; }
+  int keyframes() const { return static_cast<int>(keyframes_.size()); }
 
   /// Every frame's pose relative to its keyframe, composed with the keyframe's latest pose. Where the next keyframe's
   /// pose is not where tracking had put it, the difference is spread over the frames between the two, so that the path
@@ -32,11 +39,12 @@ class TrajectoryRecord {
     double time;
     int keyframe;
     SE3 T_keyframe_camera;
+    bool found_again = false;
   };
   struct Keyframe {
     double time;
     SE3 T_world_camera;
-    int previous = -1;      // keyframe it was tracked against; -1: none
+    int previous = -1;      // keyframe it was tracked against without a loss since; -1: none
     SE3 T_previous_camera;  // where tracking had put it
   };
 

@@ -36,8 +36,9 @@ ScratchFolder::~ScratchFolder() {
 
 namespace {
 
-pid_t start(const std::vector<std::string>& arguments, const std::string& out_file, const std::string& err_file) {
-  std::vector<std::string> words{ODOSPLAT_PROGRAM};
+pid_t start(const std::string& program, const std::vector<std::string>& arguments, const std::string& out_file,
+            const std::string& err_file) {
+  std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -52,18 +53,12 @@ pid_t start(const std::vector<std::string>& arguments, const std::string& out_fi
   return child;
 }
 
-}  // namespace
-
-RunResult run_odosplat(const std::vector<std::string>& arguments) {
-  return run_odosplat_and_signal(arguments, 0, [] { return false; });
-}
-
-RunResult run_odosplat_and_signal(const std::vector<std::string>& arguments, int signal,
-                                  const std::function<bool()>& ready) {
+RunResult run_and_signal(const std::string& program, const std::vector<std::string>& arguments, int signal,
+                         const std::function<bool()>& ready) {
   const ScratchFolder scratch;
   const std::string out_file = scratch / "out";
   const std::string err_file = scratch / "err";
-  const pid_t child = start(arguments, out_file, err_file);
+  const pid_t child = start(program, arguments, out_file, err_file);
   int status = 0;
   while (signal != 0 && waitpid(child, &status, WNOHANG) == 0) {
     if (ready()) {
@@ -79,6 +74,19 @@ RunResult run_odosplat_and_signal(const std::vector<std::string>& arguments, int
   result.out = read_text(out_file);
   result.err = read_text(err_file);
   return result;
+}
+
+}  // namespace
+
+RunResult run_program(const std::string& program, const std::vector<std::string>& arguments) {
+  return run_and_signal(program, arguments, 0, [] { return false; });
+}
+
+RunResult run_odosplat(const std::vector<std::string>& arguments) { return run_program(ODOSPLAT_PROGRAM, arguments); }
+
+RunResult run_odosplat_and_signal(const std::vector<std::string>& arguments, int signal,
+                                  const std::function<bool()>& ready) {
+  return run_and_signal(ODOSPLAT_PROGRAM, arguments, signal, ready);
 }
 
 }  // namespace odosplat::apps_test

@@ -16,7 +16,10 @@ struct RunResult {
   std::string err;
 };
 
-/// Runs the odosplat program of this build with these arguments and waits. No shell is involved.
+/// Runs a program with these arguments and waits. No shell is involved.
+RunResult run_program(const std::string& program, const std::vector<std::string>& arguments);
+
+/// The same with the odosplat program of this build.
 RunResult run_odosplat(const std::vector<std::string>& arguments);
 
 /// The same, but sends the signal as soon as `ready` says so, unless the program has ended before. `ready` is asked

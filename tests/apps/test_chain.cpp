@@ -80,7 +80,7 @@ TEST_F(Chain, TracksWithEveryDepth) {
   EXPECT_EQ(lines_of(gaussian + "/status.csv"), frames + 1);
   const auto report = nlohmann::json::parse(read_text(gaussian + "/report.json"));
   for (const char* key : {"method", "frames", "posed", "lost", "relocalisations", "keyframes", "ms_per_frame",
-                          "stages_ms", "peak_memory_mb", "device", "seed", "version"}) {
+                          "cpu_ms_per_frame", "stages_ms", "peak_memory_mb", "device", "seed", "version"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   EXPECT_EQ(report["frames"], frames);

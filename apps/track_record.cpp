@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "track_record.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "odosplat/eval/statistics.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/trajectory_file.hpp"
+
+namespace odosplat::apps {
+
+void TrackRecord::add(const Sequence& sequence, std::size_t i, const TrackResult& result) {
+  rows_.push_back({sequence.time(i), sequence.time_text(i), result});
+}
+
+TrackOutcome TrackRecord::outcome(const Odometry& odometry, double cpu_seconds) const {
+  TrackOutcome o;
+  o.trajectory = odometry.trajectory();
+  // The odometry knows times as numbers; files repeat the stamps of the input.
+  std::size_t k = 0;
+  for (StampedPose& pose : o.trajectory) {
+    while (rows_[k].time != pose.time) ++k;
+    pose.time_text = rows_[k].stamp;
+  }
+  const OdometryStatistics s = odometry.statistics();
+  o.frames = s.frames;
+  o.dropped = dropped_;
+  o.posed = s.posed;
+  o.lost = s.lost;
+  o.relocalisations = s.relocalisations;
+  o.keyframes = s.keyframes;
+  std::vector<double> sorted;
+  for (const Row& row : rows_) sorted.push_back(row.result.milliseconds);
+  std::sort(sorted.begin(), sorted.end());
+  o.median_ms = percentile(sorted, 50.0);
+  o.p95_ms = percentile(sorted, 95.0);
+  o.cpu_ms = 1000.0 * cpu_seconds / std::max(1, s.frames);
+  return o;
+}
+
+void TrackRecord::write(const TrackJob& job, const TrackOutcome& o, const Odometry& odometry,
+                        const std::string& device) const {
+  const OdometryStatistics s = odometry.statistics();
+  nlohmann::ordered_json stages = nlohmann::ordered_json::object();
+  for (const StageTime& stage : s.stages) stages[stage.name] = stage.milliseconds;
+  nlohmann::ordered_json report{{"method", job.method},
+                                {"frames", o.frames},
+                                {"posed", o.posed},
+                                {"lost", o.lost},
+                                {"relocalisations", o.relocalisations},
+                                {"keyframes", o.keyframes},
+                                {"ms_per_frame", {{"median", o.median_ms}, {"p95", o.p95_ms}}},
+                                {"cpu_ms_per_frame", o.cpu_ms},
+                                {"stages_ms", stages},
+                                {"peak_memory_mb", peak_memory_mb()},
+                                {"device", device},
+                                {"seed", job.seed},
+                                {"version", ODOSPLAT_VERSION}};
+  if (job.realtime) report["realtime"] = {{"dropped", o.dropped}, {"prefetched", s.prefetched}};
+  Trajectory live;
+  for (const Row& row : rows_) {
+    if (row.result.status != TrackStatus::lost) live.push_back({row.time, row.result.T_world_camera, row.stamp});
+  }
+  write_trajectory(job.out + "/trajectory.txt", o.trajectory);
+  write_trajectory(job.out + "/trajectory_live.txt", live);
+  write_file_atomically(job.out + "/status.csv", status_table(odometry.keyframe_times()));
+  write_file_atomically(job.out + "/covariance.csv", covariance_table());
+  write_file_atomically(job.out + "/report.json", report.dump(2) + "\n");
+}
+
+std::string TrackRecord::status_table(const std::vector<double>& keyframe_times) const {
+  std::string table = "time,status,keyframe,inlier_share,milliseconds,map_share\n";
+  for (const Row& row : rows_) {
+    const bool keyframe = std::binary_search(keyframe_times.begin(), keyframe_times.end(), row.time);
+    char line[160];
+    std::snprintf(line, sizeof(line), ",%s,%d,%.4f,%.3f,%.4f\n", to_string(row.result.status).c_str(), keyframe ? 1 : 0,
+                  row.result.inlier_share, row.result.milliseconds, row.result.map_share);
+    table += row.stamp + line;
+  }
+  return table;
+}
+
+std::string TrackRecord::covariance_table() const {
+  static const char* const axes[6] = {"tx", "ty", "tz", "rx", "ry", "rz"};
+  std::string table =
+      "# upper triangle of the covariance of xi in T_true = exp(xi) T_world_camera of trajectory_live.txt, "
+      "xi = (translation [m], rotation [rad])\ntime";
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) table += std::string(",") + axes[i] + "_" + axes[j];
+  }
+  table += "\n";
+  for (const Row& row : rows_) {
+    if (row.result.status == TrackStatus::lost) continue;
+    table += row.stamp;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = i; j < 6; ++j) {
+        char value[32];
+        std::snprintf(value, sizeof(value), ",%.6e", row.result.covariance(i, j));
+        table += value;
+      }
+    }
+    table += "\n";
+  }
+  return table;
+}
+
+}  // namespace odosplat::apps
