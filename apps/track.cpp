@@ -104,9 +104,8 @@ class Recorder {
   std::vector<double> times_;
 };
 
-OdometryOptions odometry_options(const TrackJob& job) {
-  OdometryOptions options;
-  options.keyframe.anchor.enabled = job.anchor;
+OdometryOptions options_of(const TrackJob& job) {
+  OdometryOptions options = odometry_options(method_preset(job.method), job.anchor);
   options.keyframe.selector.seed = job.seed;
   return options;
 }
@@ -117,14 +116,14 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
   ensure_output_folder(job.out);
   const Sequence sequence = open_sequence(job.sequence);
   if (sequence.size() == 0) throw InputError(sequence.name(), "holds no images");
-  OpenedView opened = open_view(common, job.method, job.map);
+  OpenedView opened = open_view(common, job.method, job.map, {job.depth_noise.model, job.seed});
   const SE3 T_world_camera_start = start_pose(job, sequence);
-  Odometry odometry(sequence.camera(), *opened.view, odometry_options(job), T_world_camera_start);
+  Odometry odometry(sequence.camera(), *opened.view, options_of(job), T_world_camera_start);
   Recorder recorder;
   Progress progress("track", static_cast<long>(sequence.size()));
   std::size_t i = 0;
   for (; i < sequence.size() && !interrupted(); ++i) {
-    if (opened.sensor != nullptr) opened.sensor->set_depth(sequence.has_depth(i) ? sequence.depth(i) : DepthImage());
+    opened.show_frame(sequence, i);
     const TrackResult result = odometry.track(sequence.gray(i), sequence.time(i));
     recorder.add(sequence, i, result);
     progress.update(static_cast<long>(i) + 1, to_string(result.status) + "  " +
@@ -142,18 +141,21 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
 void add_track(CLI::App& app, Common& common) {
   CLI::App* command = add_command(app, common, "track", "localise a sequence's camera in a map");
   auto job = std::make_shared<TrackJob>();
-  auto anchor = std::make_shared<std::string>("on");
+  auto anchor = std::make_shared<std::string>();
   add_sequence_flags(command, job->sequence);
   add_map_flags(command, job->map);
-  command->add_option("--method", job->method, "gaussian, paper, interpolation or rgbd");
+  command->add_option("--method", job->method, method_names());
   command->add_option("--out", job->out, "folder for trajectory.txt, trajectory_live.txt, status.csv, report.json")
       ->required();
   command->add_option("--start", job->start, "pose of the first image: truth, or \"tx ty tz qx qy qz qw\" [m]");
-  command->add_option("--anchor", *anchor, "align keyframes with the map's rendered image: on or off")
+  command
+      ->add_option("--anchor", *anchor,
+                   "align keyframes with the map's rendered image: on or off (default: on for gaussian, else off)")
       ->check(CLI::IsMember({"on", "off"}));
-  command->add_option("--seed", job->seed, "seed of the pixel selector");
+  add_depth_noise_flag(command, job->depth_noise);
+  command->add_option("--seed", job->seed, "seed of the pixel selector and of depth noise");
   command->final_callback([&common, job, anchor] {
-    job->anchor = *anchor == "on";
+    if (!anchor->empty()) job->anchor = *anchor == "on";
     const TrackOutcome o = track_sequence(common, *job);
     std::printf("%s: %d of %d frames posed, %d lost, %d keyframes, %.1f ms a frame (95 %%: %.1f ms)\n",
                 job->out.c_str(), o.posed, o.frames, o.lost, o.keyframes, o.median_ms, o.p95_ms);
