@@ -65,7 +65,7 @@ nlohmann::ordered_json json_of(const DepthErrors& e) {
 EvalDepthOutcome evaluate_depth(const Common& common, const EvalDepthJob& job) {
   const Sequence sequence = open_sequence(job.sequence);
   const std::vector<std::size_t> frames = judged_frames(sequence, job);
-  OpenedView opened = open_view(common, job.method, job.map);
+  OpenedView opened = open_view(common, job.method, job.map, job.depth_noise);
   PixelSelector selector{SelectorOptions()};
   DepthMetrics all;
   DepthMetrics selected;
@@ -78,7 +78,7 @@ EvalDepthOutcome evaluate_depth(const Common& common, const EvalDepthJob& job) {
     if (interrupted()) throw Interrupted();
     const DepthImage truth = sequence.depth(i);
     const ColorImage color = sequence.color(i);
-    if (opened.sensor != nullptr) opened.sensor->set_depth(truth);
+    opened.show_frame(sequence, i);
     const ViewImages images = opened.view->render(sequence.camera(), *sequence.T_world_camera(i), request);
     all.add(images.depth, truth, {}, images.sigma);
     selected.add(images.depth, truth, selected_mask(selector, to_gray(color), sequence.camera()), images.sigma);
@@ -106,7 +106,8 @@ void add_eval_depth(CLI::App& app, Common& common) {
   auto job = std::make_shared<EvalDepthJob>();
   add_sequence_flags(command, job->sequence);
   add_map_flags(command, job->map);
-  command->add_option("--method", job->method, "gaussian, paper or interpolation");
+  command->add_option("--method", job->method, method_names());
+  add_depth_noise_flag(command, job->depth_noise);
   command->add_option("--every", job->every, "judge every Nth of the frames")->check(CLI::PositiveNumber);
   command->add_option("--skip-every", job->skip_every, "leave out frames 0, N, 2N ... the map was made from, 0: none")
       ->check(CLI::NonNegativeNumber);

@@ -12,6 +12,7 @@ struct EvalDepthJob {
   SequenceFlags sequence;
   std::string method = "gaussian";
   MapFlags map;
+  DepthNoiseFlags depth_noise;
   std::string json;
   int every = 10;       // step between judged frames
   int skip_every = 10;  // frames 0, N, 2N, ... are what the map was trained on and are left out; 0: none

@@ -11,6 +11,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/cloud_file.hpp"
 #include "odosplat/map/interpolation_view.hpp"
+#include "odosplat/map/surfel_view.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
 #include "odosplat/splat/map_file.hpp"
 
@@ -34,24 +35,50 @@ void add_map_flags(CLI::App* command, MapFlags& flags) {
   command->add_option("--cloud", flags.cloud, cloud_formats);
 }
 
-OpenedView open_view(const Common& common, const std::string& method, const MapFlags& flags) {
+void add_depth_noise_flag(CLI::App* command, DepthNoiseFlags& flags) {
+  command
+      ->add_option("--depth-noise", flags.model,
+                   "noise added to the depth images of method rgbd: none, or kinect (axial, lateral, quantised; "
+                   "missing outside 0.5 to 5 m, at grazing angles and at depth edges)")
+      ->check(CLI::IsMember({"none", "kinect"}));
+}
+
+void OpenedView::show_frame(const Sequence& sequence, std::size_t i) {
+  if (sensor == nullptr) return;
+  DepthImage depth = sequence.has_depth(i) ? sequence.depth(i) : DepthImage();
+  if (depth_noise && !depth.empty()) {
+    depth = sense_kinect_depth(depth, sequence.camera(), *depth_noise, static_cast<int>(i));
+  }
+  sensor->set_depth(depth);
+}
+
+OpenedView open_view(const Common& common, const std::string& method, const MapFlags& flags,
+                     const DepthNoiseFlags& noise) {
+  const MethodPreset& preset = method_preset(method);
   OpenedView opened;
-  if (method == "gaussian" || method == "paper") {
-    const Gaussians gaussians = read_map(needed(method, "--map", flags.map));
-    GaussianViewOptions options;
-    if (method == "paper") options.depth_mode = DepthMode::blended;
-    if (!flags.depth.empty()) options.depth_mode = depth_mode(flags.depth);
-    options.sigma = read_sigma_model(flags.map);
-    opened.device = open_device(common);
-    opened.view = std::make_unique<GaussianView>(*opened.device, gaussians, options);
-  } else if (method == "interpolation") {
-    opened.view = std::make_unique<InterpolationView>(read_point_cloud(needed(method, "--cloud", flags.cloud)));
-  } else if (method == "rgbd") {
-    auto view = std::make_unique<SensorView>();
-    opened.sensor = view.get();
-    opened.view = std::move(view);
-  } else {
-    throw InputError("--method", "must be gaussian, paper, interpolation or rgbd, is " + method);
+  switch (preset.view) {
+    case ViewKind::gaussians: {
+      const Gaussians gaussians = read_map(needed(method, "--map", flags.map));
+      GaussianViewOptions options;
+      options.depth_mode = flags.depth.empty() ? preset.depth_mode : depth_mode(flags.depth);
+      options.sigma = read_sigma_model(flags.map);
+      opened.device = open_device(common);
+      opened.view = std::make_unique<GaussianView>(*opened.device, gaussians, options);
+      break;
+    }
+    case ViewKind::interpolation:
+      opened.view = std::make_unique<InterpolationView>(read_point_cloud(needed(method, "--cloud", flags.cloud)));
+      break;
+    case ViewKind::surfels:
+      opened.view = std::make_unique<SurfelView>(read_point_cloud(needed(method, "--cloud", flags.cloud)));
+      break;
+    case ViewKind::sensor: {
+      auto view = std::make_unique<SensorView>();
+      opened.sensor = view.get();
+      opened.view = std::move(view);
+      if (noise.model == "kinect") opened.depth_noise.emplace().seed = noise.seed;
+      break;
+    }
   }
   return opened;
 }

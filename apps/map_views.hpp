@@ -6,8 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "method.hpp"
+#include "odosplat/io/sequence.hpp"
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/map/sensor_view.hpp"
+#include "odosplat/synth/kinect.hpp"
 #include "odosplat/viewer/map_points.hpp"
 #include "support.hpp"
 
@@ -22,17 +25,31 @@ struct MapFlags {
 
 void add_map_flags(CLI::App* command, MapFlags& flags);
 
+/// Noise that the depth of method rgbd gets before use.
+struct DepthNoiseFlags {
+  std::string model = "none";  // or kinect
+  std::uint64_t seed = 1;
+};
+
+/// Declares --depth-noise.
+void add_depth_noise_flag(CLI::App* command, DepthNoiseFlags& flags);
+
 /// A map behind the interface that the odometry knows, with the device it runs on if it needs one.
 struct OpenedView {
   std::unique_ptr<MapView> view;
   std::optional<compute::Context> device;
-  SensorView* sensor = nullptr;  // method rgbd: set_depth() before each frame; else null
+  SensorView* sensor = nullptr;  // method rgbd; else null
+  std::optional<KinectOptions> depth_noise;
+
+  /// To be called before a frame is tracked or judged: method rgbd shows its depth image, with noise if asked for. A
+  /// map is what it is whatever the frame: nothing happens.
+  void show_frame(const Sequence& sequence, std::size_t i);
 };
 
-/// gaussian: Gaussians of --map, depth by ray planes, normalised; paper: the same with the paper's blended depth;
-/// interpolation: depth interpolated in --cloud; rgbd: the sequence's own depth images.
-/// InputError for another word or a file that the method needs and was not given.
-OpenedView open_view(const Common& common, const std::string& method, const MapFlags& flags);
+/// The map that the method's preset names: Gaussians of --map, --cloud interpolated or as surfels, or the sequence's
+/// own depth images. InputError for another word or a file that the method needs and was not given.
+OpenedView open_view(const Common& common, const std::string& method, const MapFlags& flags,
+                     const DepthNoiseFlags& noise = {});
 
 /// What the figures draw: the Gaussians' discs if there is a map, else the points of the cloud.
 MapPoints read_map_points(const MapFlags& flags);

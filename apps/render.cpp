@@ -62,7 +62,7 @@ void run(const Common& common, const RenderFlags& flags) {
   ensure_output_folder(flags.out);
   const CameraFile camera = read_camera_file(flags.camera);
   const Trajectory poses = read_trajectory(flags.poses);
-  if (flags.method == "rgbd") throw InputError("--method", "rgbd has no map to render");
+  if (method_preset(flags.method).view == ViewKind::sensor) throw InputError("--method", "rgbd has no map to render");
   OpenedView opened = open_view(common, flags.method, flags.map);
   // Sixteen bits: a depth beyond their range is none, a sigma beyond it the largest.
   constexpr double sigma_units = 10000.0;
@@ -90,7 +90,7 @@ void add_render(CLI::App& app, Common& common) {
   CLI::App* command = add_command(app, common, "render", "images of a map from given poses");
   auto flags = std::make_shared<RenderFlags>();
   add_map_flags(command, flags->map);
-  command->add_option("--method", flags->method, "gaussian, paper or interpolation");
+  command->add_option("--method", flags->method, "gaussian, paper, interpolation or surfel");
   command->add_option("--poses", flags->poses, "trajectory, camera to world")->required();
   command->add_option("--camera", flags->camera, "camera.yaml")->required();
   command->add_option("--out", flags->out, "folder for color/, depth/, alpha/, sigma/")->required();

@@ -80,8 +80,8 @@ class Run {
     std::shared_ptr<SensorView> view;
     if (opened_.sensor != nullptr) {
       // A keyframe that is made later must see the depth of its own frame.
+      opened_.show_frame(sequence_, i);
       view = std::make_shared<SensorView>(*opened_.sensor);
-      view->set_depth(sequence_.has_depth(i) ? sequence_.depth(i) : DepthImage());
     }
     const TrackResult result = odometry_.track(reader_.take(i), sequence_.time(i), view);
     record_.add(sequence_, i, result);
@@ -103,8 +103,7 @@ class Run {
 }  // namespace
 
 OdometryOptions odometry_options(const TrackJob& job) {
-  OdometryOptions options;
-  options.keyframe.anchor.enabled = job.anchor;
+  OdometryOptions options = odometry_options(method_preset(job.method), job.anchor);
   options.keyframe.selector.seed = job.seed;
   options.background = job.realtime;
   return options;
@@ -114,7 +113,7 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
   ensure_output_folder(job.out);
   const Sequence sequence = open_sequence(job.sequence);
   if (sequence.size() == 0) throw InputError(sequence.name(), "holds no images");
-  OpenedView opened = open_view(common, job.method, job.map);
+  OpenedView opened = open_view(common, job.method, job.map, {job.depth_noise.model, job.seed});
   const SE3 T_world_camera_start = start_pose(job, sequence);
   // The first rendering loads the device's programs, which a camera would not wait for.
   if (job.realtime && opened.sensor == nullptr) {
@@ -137,23 +136,26 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
 void add_track(CLI::App& app, Common& common) {
   CLI::App* command = add_command(app, common, "track", "localise a sequence's camera in a map");
   auto job = std::make_shared<TrackJob>();
-  auto anchor = std::make_shared<std::string>("on");
+  auto anchor = std::make_shared<std::string>();
   add_sequence_flags(command, job->sequence);
   add_map_flags(command, job->map);
-  command->add_option("--method", job->method, "gaussian, paper, interpolation or rgbd");
+  command->add_option("--method", job->method, method_names());
   command
       ->add_option("--out", job->out,
                    "folder for trajectory.txt, trajectory_live.txt, status.csv, covariance.csv, report.json")
       ->required();
   command->add_option("--start", job->start, "pose of the first image: truth, or \"tx ty tz qx qy qz qw\" [m]");
-  command->add_option("--anchor", *anchor, "align keyframes with the map's rendered image: on or off")
+  command
+      ->add_option("--anchor", *anchor,
+                   "align keyframes with the map's rendered image: on or off (default: on for gaussian, else off)")
       ->check(CLI::IsMember({"on", "off"}));
   command->add_flag("--realtime", job->realtime,
                     "play at the sequence's rate: keyframes in the background, late frames are dropped (default: every "
                     "frame, same bits every time)");
-  command->add_option("--seed", job->seed, "seed of the pixel selector");
+  add_depth_noise_flag(command, job->depth_noise);
+  command->add_option("--seed", job->seed, "seed of the pixel selector and of depth noise");
   command->final_callback([&common, job, anchor] {
-    job->anchor = *anchor == "on";
+    if (!anchor->empty()) job->anchor = *anchor == "on";
     const TrackOutcome o = track_sequence(common, *job);
     std::printf("%s: %d of %d frames posed, %d lost, %d keyframes, %.1f ms a frame (95 %%: %.1f ms)\n",
                 job->out.c_str(), o.posed, o.frames, o.lost, o.keyframes, o.median_ms, o.p95_ms);

@@ -15,9 +15,10 @@ struct TrackJob {
   MapFlags map;
   std::string out;
   std::string start = "truth";  // or "tx ty tz qx qy qz qw"
-  bool anchor = true;
-  bool realtime = false;  // at the sequence's rate, late frames dropped
-  std::uint64_t seed = 3141592;
+  std::optional<bool> anchor;   // of the map's colours; none: as the method has it
+  DepthNoiseFlags depth_noise;
+  bool realtime = false;         // at the sequence's rate, late frames dropped
+  std::uint64_t seed = 3141592;  // of the pixel selector and of depth noise
 };
 
 struct TrackOutcome {

@@ -118,7 +118,10 @@ void run_depth(const Common& common, const FrameViewFlags& flags) {
   const std::size_t frame = flags.frames.at(0);
   const SE3 T_world_camera = pose_of_frame(sequence, frame);
   OpenedView opened = open_view(common, flags.method, flags.map);
-  if (opened.sensor != nullptr) opened.sensor->set_depth(sequence.depth(frame));
+  if (opened.sensor != nullptr && !sequence.has_depth(frame)) {
+    throw InputError("--frame", std::to_string(frame) + " has no depth image");
+  }
+  opened.show_frame(sequence, frame);
   ViewRequest request;
   request.alpha = true;
   const ViewImages images = opened.view->render(sequence.camera(), T_world_camera, request);
@@ -179,7 +182,7 @@ void add_view(CLI::App& app, Common& common) {
       add_view_kind(view, common, "depth", "depth, sigma and alpha of a map at a frame's true pose", depth->output);
   add_sequence_flags(command, depth->sequence);
   add_map_flags(command, depth->map);
-  command->add_option("--method", depth->method, "gaussian, paper, interpolation or rgbd");
+  command->add_option("--method", depth->method, method_names());
   command->add_option("--frame", depth->frames, "frame number, from 0")->expected(1);
   command->final_callback([&common, depth] { run_depth(common, *depth); });
 

@@ -18,8 +18,8 @@ struct CameraFile {
   bool has_depth_scale = false;    // false: the file does not say, the layout's own default counts
   std::vector<double> distortion;  // k1 k2 p1 p2 k3 (OpenCV's order; 4 values: k3 = 0); empty: none
   double fps = 0.0;                // [1/s], 0: not said
-  double gamma = 0.0;              // exponent of the response, 0: not said
-  std::string vignette;            // image file, relative to the camera file; empty: none
+  double gamma = 0.0;              // of the response, stored = radiance^(1 / gamma); 0: not said
+  std::string vignette;            // image file, relative to the camera file (read_vignette); empty: none
 };
 
 /// Throws InputError(file, key, fault): a key missing or unknown, not a number, not finite, sizes or focal lengths out

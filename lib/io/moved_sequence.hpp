@@ -15,7 +15,8 @@ namespace odosplat {
 ///   rgb.txt          the frames that have a pose; the images stay where they are and are named by absolute path
 ///   depth.txt        their depth images, if any. Depth is taken to be in the unit of the poses: camera.yaml gets a
 ///                    depth_scale that is divided by the scale
-///   camera.yaml      the camera with its lens distortion
+///   exposures.txt    their exposure times, if known
+///   camera.yaml      the camera with its lens distortion and photometric calibration
 /// rgb.txt is written last. Returns the number of frames. InputError: no frame has a pose, a video (its frames are no
 /// files), a path that no list can hold, a folder that cannot be written. The sequence's own folder is not recognised:
 /// its lists would be replaced.

@@ -12,6 +12,7 @@
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/image_file.hpp"
 #include "odosplat/io/layouts.hpp"
+#include "odosplat/io/photometric.hpp"
 #include "odosplat/io/undistort.hpp"
 
 namespace odosplat {
@@ -71,10 +72,18 @@ struct Sequence::Data {
   double fps = default_fps;
   bool reflected = false;
   Undistorter undistorter;
+  PhotometricCorrection photometric;
+  std::vector<double> exposures;  // a frame, median 1; empty: not known
 
   const FrameFiles& frame(std::size_t i) const {
     if (i >= index.frames.size()) throw std::out_of_range("frame " + std::to_string(i) + " of " + name);
     return index.frames[i];
+  }
+  double exposure(std::size_t i) const { return exposures.empty() ? 1.0 : exposures.at(i); }
+  /// Empty: none.
+  std::string vignette_file() const {
+    if (index.camera.vignette.empty()) return {};
+    return (std::filesystem::path(index.camera_source).parent_path() / index.camera.vignette).string();
   }
   cv::Size camera_size() const { return {index.camera.camera.width, index.camera.camera.height}; }
 
@@ -92,6 +101,22 @@ struct Sequence::Data {
                        "is " + size_text(size) + ", its colour image " + files.color + " is " + size_text(color));
     }
     require_camera_size(files.depth, size);
+  }
+
+  void read_photometric_calibration(const std::string& path) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) {
+      std::vector<double> times;
+      for (const FrameFiles& f : index.frames) times.push_back(f.time);
+      exposures = read_exposures(path, times);
+    }
+    cv::Mat1f vignette;
+    if (const std::string file = vignette_file(); !file.empty()) {
+      vignette = read_vignette(file);
+      require_camera_size(file, vignette.size());
+    }
+    const double gamma = index.camera.gamma > 0.0 ? index.camera.gamma : 1.0;
+    photometric = PhotometricCorrection(gamma, vignette);
   }
 
   void require_files() {
@@ -135,6 +160,7 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
   }
   // Last: only now is the size that the camera file promises known to be true.
   data->undistorter = Undistorter(index.camera.camera, index.camera.distortion);
+  data->read_photometric_calibration(path);
   return Sequence(std::move(data));
 }
 
@@ -149,6 +175,13 @@ double Sequence::time(std::size_t i) const { return data_->frame(i).time; }
 const Trajectory& Sequence::truth() const { return data_->index.truth; }
 bool Sequence::has_depth(std::size_t i) const { return !data_->frame(i).depth.empty(); }
 GrayImage Sequence::gray(std::size_t i) const { return to_gray(color(i)); }
+
+bool Sequence::has_exposures() const { return !data_->exposures.empty(); }
+
+double Sequence::exposure(std::size_t i) const {
+  data_->frame(i);
+  return data_->exposure(i);
+}
 
 bool Sequence::has_sparse_points() const { return !data_->index.sparse_points.file.empty(); }
 
@@ -168,9 +201,7 @@ CameraFile Sequence::camera_file() const {
   CameraFile file = data_->index.camera;
   file.fy_sign = 1;
   file.fps = data_->fps;
-  if (!file.vignette.empty()) {
-    file.vignette = (std::filesystem::path(data_->index.camera_source).parent_path() / file.vignette).string();
-  }
+  file.vignette = data_->vignette_file();
   return file;
 }
 
@@ -202,7 +233,7 @@ ColorImage Sequence::color(std::size_t i) const {
     image = read_color(files.color);
     data_->require_camera_size(files.color, image.size());
   }
-  return data_->undistorter.color(image);
+  return data_->undistorter.color(data_->photometric.apply(image, data_->exposure(i)));
 }
 
 DepthImage Sequence::depth(std::size_t i) const {

@@ -58,6 +58,11 @@ struct SequenceOptions {
 /// focal lengths; what the lens has not seen is 0. Where fy is negative (ICL-NUIM) poses are reflected,
 /// T' = F T F with F = diag(1, -1, 1), so that they belong to camera(), whose fy is positive.
 ///
+/// Photometric calibration is applied before that (PhotometricCorrection): vignette and gamma of the camera file, and
+/// exposure times of exposures.txt or DSO's times.txt in the sequence's folder, so that colours are those of a camera
+/// without vignetting and with the median exposure. A camera file with a vignette but no gamma is taken to store
+/// radiance itself (gamma 1). Without vignette and exposures nothing changes.
+///
 /// Images are decoded when asked for and not kept. Colour files that are listed must exist; missing depth or truth is
 /// no error. Errors: InputError naming the file. Copies share the data. Const calls are thread safe.
 class Sequence {
@@ -89,6 +94,11 @@ class Sequence {
   std::optional<SE3> T_world_depth(std::size_t i) const;
   /// Every pose that the data set gives, at its own rate, reflected like T_world_camera.
   const Trajectory& truth() const;
+
+  /// True if the sequence's folder lists exposure times.
+  bool has_exposures() const;
+  /// Exposure time of the frame over the median; 1 where it is not known.
+  double exposure(std::size_t i) const;
 
   /// True if the data set brings points of its own in the world of its poses (COLMAP's points3D, ply_file_path).
   bool has_sparse_points() const;

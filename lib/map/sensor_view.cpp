@@ -39,8 +39,7 @@ ViewImages SensorView::render(const Camera& camera, const SE3& /*T_world_camera*
     for (int x = 0; x < size.width; ++x) {
       const double z = images.depth(y, x);
       if (z <= 0.0) continue;
-      const double beyond = std::max(0.0, z - options_.nearest);
-      images.sigma(y, x) = static_cast<float>(options_.sigma_constant + options_.sigma_square * beyond * beyond);
+      images.sigma(y, x) = static_cast<float>(options_.sigma(z));
       if (request.alpha) images.alpha(y, x) = 1.0F;
     }
   }

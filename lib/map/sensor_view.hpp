@@ -12,6 +12,12 @@ struct SensorViewOptions {
   double nearest = 0.4;            // [m] where that growth begins
 
   void check() const;
+
+  /// [m] of a measured depth z [m].
+  double sigma(double z) const {
+    const double beyond = z > nearest ? z - nearest : 0.0;
+    return sigma_constant + sigma_square * beyond * beyond;
+  }
 };
 
 /// A depth sensor in the place of a map, for an RGB-D baseline: what render() gives is the depth image that was set,

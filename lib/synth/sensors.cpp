@@ -8,18 +8,13 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/core/random.hpp"
+#include "odosplat/synth/row_random.hpp"
 
 namespace odosplat {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double disparity_unit = 351.3;  // [m * eighths of a pixel]: 8 * focal length * baseline of a Kinect
-
-/// A stream of its own for every row of every frame, so that noise does not depend on who computes which row.
-Random row_random(std::uint64_t seed, int frame, int row) {
-  return Random(seed * 0x9E3779B97F4A7C15ULL + (static_cast<std::uint64_t>(static_cast<std::uint32_t>(frame)) << 16) +
-                static_cast<std::uint64_t>(row));
-}
 
 }  // namespace
 

@@ -12,7 +12,7 @@ void add_job_flags(CLI::App* command, Job& job) {
   apps::add_sequence_flags(command, job.track.sequence);
   apps::add_map_flags(command, job.track.map);
   command->add_option("--method", job.track.method, "as odosplat track knows it");
-  command->add_flag("!--no-anchor", job.track.anchor, "do not align keyframes with the map's rendered image");
+  command->add_option("--anchor", job.track.anchor, "on or off (default: as the method has it)");
   command->add_option("--seed", job.track.seed, "seed of the pixel selector and of every disturbance");
   command->add_option("--frames", job.frames, apps::frames_help);
   command->add_option("--json", job.json, "the rows of the table, to this file");

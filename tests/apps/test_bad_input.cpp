@@ -165,7 +165,11 @@ TEST_F(BadInput, Flags) {
     return words;
   };
   expect_refused(with({}), "--map", "needed for method gaussian");
-  expect_refused(with({"--method", "magic"}), "--method", "magic");
+  expect_refused(with({"--method", "magic"}), "--method",
+                 "must be gaussian, paper, interpolation, surfel or rgbd, is magic");
+  expect_refused({"track", sequence_, "--method", "surfel", "--out", scratch_ / "run"}, "--cloud",
+                 "needed for method surfel");
+  expect_refused(with({"--method", "rgbd", "--depth-noise", "fog"}), "--depth-noise", "fog");
   expect_refused(with({"--method", "interpolation", "--start", "1 2 3"}), "--start", "");
   expect_refused(with({"--method", "interpolation", "--start", "0 0 0 0 0 0 0"}), "--start", "quaternion");
   expect_refused({"view", "map", "--cloud", cloud_, "--out", scratch_ / "x.png", "--size", "big"}, "--size", "big",

@@ -73,8 +73,14 @@ TEST_F(Chain, TracksWithEveryDepth) {
   EXPECT_LT(ate(gaussian), 0.01);
   const std::string interpolation = track(sequence_, "interpolation", {"--method", "interpolation"});
   EXPECT_LT(ate(interpolation), 0.03);
+  const std::string surfel = track(sequence_, "surfel", {"--method", "surfel"});
+  EXPECT_LT(ate(surfel), 0.03);
+  EXPECT_EQ(nlohmann::json::parse(read_text(surfel + "/report.json"))["method"], "surfel");
   const std::string rgbd = track(sequence_, "rgbd", {"--method", "rgbd"});
   EXPECT_LT(ate(rgbd), 0.03);
+  const std::string noisy = track(sequence_, "noisy", {"--method", "rgbd", "--depth-noise", "kinect"});
+  EXPECT_LT(ate(noisy), 0.05);
+  EXPECT_NE(read_text(noisy + "/trajectory.txt"), read_text(rgbd + "/trajectory.txt"));
   EXPECT_EQ(lines_of(gaussian + "/trajectory.txt"), frames + 1);
   EXPECT_EQ(lines_of(gaussian + "/trajectory_live.txt"), frames + 1);
   EXPECT_EQ(lines_of(gaussian + "/status.csv"), frames + 1);
@@ -85,6 +91,22 @@ TEST_F(Chain, TracksWithEveryDepth) {
   }
   EXPECT_EQ(report["frames"], frames);
   EXPECT_EQ(report["posed"].get<int>() + report["lost"].get<int>(), frames);
+}
+
+TEST_F(Chain, AnchorsAsTheMethodDoesUnlessTold) {
+  const auto trajectory = [&](const std::string& method, const std::vector<std::string>& anchor) {
+    std::vector<std::string> more{"--method", method};
+    more.insert(more.end(), anchor.begin(), anchor.end());
+    return read_text(
+        track(sequence_, method + std::to_string(anchor.size()) + (anchor.empty() ? "" : anchor[1]), more) +
+        "/trajectory.txt");
+  };
+  for (const char* method : {"gaussian", "interpolation"}) {
+    const bool by_default = std::string(method) == "gaussian";
+    const std::string plain = trajectory(method, {});
+    EXPECT_EQ(plain == trajectory(method, {"--anchor", "on"}), by_default) << method;
+    EXPECT_EQ(plain == trajectory(method, {"--anchor", "off"}), !by_default) << method;
+  }
 }
 
 TEST_F(Chain, UsesNoTruthButTheFirstPose) {

@@ -14,6 +14,7 @@
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/list_file.hpp"
 #include "odosplat/io/natural_order.hpp"
+#include "odosplat/io/photometric.hpp"
 #include "odosplat/io/ply.hpp"
 #include "odosplat/io/similarity_file.hpp"
 #include "odosplat/io/trajectory_file.hpp"
@@ -155,6 +156,12 @@ void sequence_lists(const std::string& bytes) {
       demand(!pair.color_path.empty() && !pair.depth_path.empty(), "a pair has two paths");
     }
   });
+  const auto demand_exposures = [](const std::vector<double>& exposures, std::size_t frames) {
+    demand(exposures.empty() || exposures.size() == frames, "an exposure a frame");
+    for (const double exposure : exposures) demand(exposure >= 0.0, "exposures are not negative");
+  };
+  read_or_refuse([&] { demand_exposures(parse_exposures("fuzz", bytes, {1.0, 2.0}), 2); });
+  read_or_refuse([&] { demand_exposures(parse_dso_times("fuzz", bytes, 2), 2); });
 }
 
 void colmap_text(const std::string& bytes) {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "method.hpp"
+
+#include "odosplat/core/error.hpp"
+
+namespace odosplat::apps {
+
+const std::vector<MethodPreset>& method_presets() {
+  static const std::vector<MethodPreset> presets{
+      {"gaussian", ViewKind::gaussians, DepthMode::surface, true, true},
+      {"paper", ViewKind::gaussians, DepthMode::blended, false, false},
+      {"interpolation", ViewKind::interpolation, DepthMode::surface, false, false},
+      {"surfel", ViewKind::surfels, DepthMode::surface, false, true},
+      {"rgbd", ViewKind::sensor, DepthMode::surface, false, false},
+  };
+  return presets;
+}
+
+std::string method_names() {
+  std::string names;
+  const std::vector<MethodPreset>& presets = method_presets();
+  for (std::size_t i = 0; i < presets.size(); ++i) {
+    if (i > 0) names += i + 1 < presets.size() ? ", " : " or ";
+    names += presets[i].name;
+  }
+  return names;
+}
+
+const MethodPreset& method_preset(const std::string& name) {
+  for (const MethodPreset& preset : method_presets()) {
+    if (name == preset.name) return preset;
+  }
+  throw InputError("--method", "must be " + method_names() + ", is " + name);
+}
+
+OdometryOptions odometry_options(const MethodPreset& preset, std::optional<bool> anchor) {
+  OdometryOptions options;
+  options.keyframe.anchor.enabled = anchor.value_or(preset.anchor);
+  options.optimizer.photometric.planes_in_world = preset.planes_in_world;
+  return options;
+}
+
+}  // namespace odosplat::apps
