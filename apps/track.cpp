@@ -14,6 +14,8 @@
 #include "odosplat/eval/statistics.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/trajectory_file.hpp"
+#include "odosplat/odometry/relocalizer.hpp"
+#include "places.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -23,7 +25,8 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence) {
     double v[7];
     std::istringstream text(job.start);
     for (double& value : v) {
-      if (!(text >> value)) throw InputError("--start", "must be truth or \"tx ty tz qx qy qz qw\", is " + job.start);
+      if (!(text >> value))
+        throw InputError("--start", "must be truth, auto or \"tx ty tz qx qy qz qw\", is " + job.start);
     }
     const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     if (!(q.norm() > 1e-6)) throw InputError("--start", "the quaternion has length zero");
@@ -111,6 +114,28 @@ OdometryOptions odometry_options(const TrackJob& job) {
   return options;
 }
 
+/// None where it is not wanted, or where there is no map to look at.
+std::optional<Relocalizer> make_relocalizer(const TrackJob& job, const Camera& camera, const OpenedView& opened) {
+  if (opened.sensor != nullptr) {
+    if (job.start == "auto") throw InputError("--start", "auto needs a map, which method rgbd has not");
+    return std::nullopt;
+  }
+  if (!job.relocalise && job.start != "auto") return std::nullopt;
+  return std::make_optional<Relocalizer>(camera, *opened.view, places_of(job.map, job.places));
+}
+
+/// In place: an odometry may hold what cannot move.
+void start_odometry(std::optional<Odometry>& odometry, const TrackJob& job, const Sequence& sequence, MapView& map,
+                    std::optional<Relocalizer>& relocalizer) {
+  const OdometryOptions options = odometry_options(job);
+  if (job.start == "auto") {
+    odometry.emplace(sequence.camera(), map, options, *relocalizer);
+    return;
+  }
+  odometry.emplace(sequence.camera(), map, options, start_pose(job, sequence));
+  if (relocalizer) odometry->set_relocalizer(&*relocalizer);
+}
+
 }  // namespace
 
 TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
@@ -118,8 +143,10 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
   const Sequence sequence = open_sequence(job.sequence);
   if (sequence.size() == 0) throw InputError(sequence.name(), "holds no images");
   OpenedView opened = open_view(common, job.method, job.map);
-  const SE3 T_world_camera_start = start_pose(job, sequence);
-  Odometry odometry(sequence.camera(), *opened.view, odometry_options(job), T_world_camera_start);
+  std::optional<Relocalizer> relocalizer = make_relocalizer(job, sequence.camera(), opened);
+  std::optional<Odometry> started;
+  start_odometry(started, job, sequence, *opened.view, relocalizer);
+  Odometry& odometry = *started;
   Recorder recorder;
   Progress progress("track", static_cast<long>(sequence.size()));
   std::size_t i = 0;
@@ -143,17 +170,23 @@ void add_track(CLI::App& app, Common& common) {
   CLI::App* command = add_command(app, common, "track", "localise a sequence's camera in a map");
   auto job = std::make_shared<TrackJob>();
   auto anchor = std::make_shared<std::string>("on");
+  auto relocalise = std::make_shared<std::string>("on");
   add_sequence_flags(command, job->sequence);
   add_map_flags(command, job->map);
   command->add_option("--method", job->method, "gaussian, paper, interpolation or rgbd");
   command->add_option("--out", job->out, "folder for trajectory.txt, trajectory_live.txt, status.csv, report.json")
       ->required();
-  command->add_option("--start", job->start, "pose of the first image: truth, or \"tx ty tz qx qy qz qw\" [m]");
+  command->add_option("--start", job->start,
+                      "pose of the first image: truth, \"tx ty tz qx qy qz qw\" [m], or auto (it is looked up)");
+  command->add_option("--relocalise", *relocalise, "look images up in the map when lost: on or off")
+      ->check(CLI::IsMember({"on", "off"}));
+  command->add_option("--places", job->places, places_help);
   command->add_option("--anchor", *anchor, "align keyframes with the map's rendered image: on or off")
       ->check(CLI::IsMember({"on", "off"}));
   command->add_option("--seed", job->seed, "seed of the pixel selector");
-  command->final_callback([&common, job, anchor] {
+  command->final_callback([&common, job, anchor, relocalise] {
     job->anchor = *anchor == "on";
+    job->relocalise = *relocalise == "on";
     const TrackOutcome o = track_sequence(common, *job);
     std::printf("%s: %d of %d frames posed, %d lost, %d keyframes, %.1f ms a frame (95 %%: %.1f ms)\n",
                 job->out.c_str(), o.posed, o.frames, o.lost, o.keyframes, o.median_ms, o.p95_ms);

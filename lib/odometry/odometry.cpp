@@ -6,11 +6,19 @@
 #include <cmath>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/relocalizer.hpp"
 
 namespace odosplat {
 namespace {
 
-enum StageIndex : std::size_t { stage_pyramid, stage_track, stage_render, stage_keyframe, stage_optimise };
+enum StageIndex : std::size_t {
+  stage_pyramid,
+  stage_track,
+  stage_render,
+  stage_keyframe,
+  stage_optimise,
+  stage_relocalise
+};
 
 using Clock = std::chrono::steady_clock;
 
@@ -79,7 +87,13 @@ Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& op
   camera_.check();
   options_.check();
   require(T_world_camera_start.is_finite(), "start pose", "finite");
-  statistics_.stages = {{"pyramid"}, {"track"}, {"render"}, {"keyframe"}, {"optimise"}};
+  statistics_.stages = {{"pyramid"}, {"track"}, {"render"}, {"keyframe"}, {"optimise"}, {"relocalise"}};
+}
+
+Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& options, Relocalizer& relocalizer)
+    : Odometry(camera, map, options, SE3()) {
+  T_world_camera_start_.reset();
+  relocalizer_ = &relocalizer;
 }
 
 TrackResult Odometry::track(const GrayImage& image, double time) {
@@ -93,7 +107,9 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
   ++statistics_.frames;
   if (reference_ == nullptr) {
     // Until the first keyframe stands, the camera is where the caller said.
-    if (add_keyframe(pyramid, time, T_world_camera_start_, {}, result)) {
+    if (!T_world_camera_start_) {
+      relocalise(image, pyramid, time, result);
+    } else if (add_keyframe(pyramid, time, *T_world_camera_start_, {}, result)) {
       result.status = TrackStatus::ok;
       result.inlier_share = 1.0;
       result.coverage = 1.0;
@@ -132,15 +148,19 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
           result.covariance = options_.covariance_factor * reference_->covariance;
         }
       }
+    } else {
+      relocalise(image, pyramid, time, result);
     }
   }
   if (result.status == TrackStatus::lost) {
     result.T_world_camera = SE3();
     history_.stop();
     lost_ = reference_ != nullptr;
+    ++lost_in_a_row_;
     ++statistics_.lost;
   } else {
-    if (lost_) {
+    lost_in_a_row_ = 0;
+    if (result.status == TrackStatus::relocalised) {
       history_.clear();
       ++statistics_.relocalisations;
     }
@@ -209,6 +229,26 @@ Alignment Odometry::search_window(const FramePyramid& pyramid) {
   }
   best.finished = false;
   return best;
+}
+
+bool Odometry::relocalise(const GrayImage& image, const FramePyramid& pyramid, double time, TrackResult& result) {
+  // A look-up costs as much as tracking many frames: after a while it is tried less often.
+  constexpr int eager = 15;
+  constexpr int every = 5;
+  if (relocalizer_ == nullptr || (lost_in_a_row_ >= eager && lost_in_a_row_ % every != 0)) return false;
+  Relocalization answer;
+  {
+    const StageTimer timer(statistics_.stages[stage_relocalise]);
+    answer = history_.has_last ? relocalizer_->find(image, history_.last) : relocalizer_->find(image);
+  }
+  if (!answer.found) return false;
+  window_.keyframes.clear();
+  if (!add_keyframe(pyramid, time, answer.T_world_camera, {}, result)) return false;
+  result.status = TrackStatus::relocalised;
+  result.inlier_share = answer.inlier_share;
+  result.coverage = 1.0;
+  result.covariance = options_.covariance_factor * reference_->covariance;
+  return true;
 }
 
 bool Odometry::believed(const Alignment& a, bool was_lost) const {

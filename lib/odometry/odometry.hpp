@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "odosplat/odometry/window_optimizer.hpp"
 
 namespace odosplat {
+
+class Relocalizer;
 
 /// When an alignment is believed.
 struct AcceptOptions {
@@ -43,13 +46,14 @@ struct OdometryOptions {
   void check() const;
 };
 
+/// ok: tracked on from the last images. relocalised: found without them, after a loss or at a start without a pose.
 enum class TrackStatus { ok, lost, relocalised };
 /// "ok", "lost", "relocalised".
 std::string to_string(TrackStatus status);
 
 /// What became of one image. T_world_camera is the pose as known now; Odometry::trajectory() has the final one.
 struct TrackResult {
-  TrackStatus status = TrackStatus::lost;  // relocalised: found again after a loss
+  TrackStatus status = TrackStatus::lost;
   SE3 T_world_camera;                      // identity when lost: no pose is made up
   Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera; zero when lost
   bool keyframe = false;
@@ -68,7 +72,7 @@ struct OdometryStatistics {
     double milliseconds = 0.0;
     long calls = 0;
   };
-  std::vector<Stage> stages;  // pyramid, track, render, keyframe, optimise
+  std::vector<Stage> stages;  // pyramid, track, render, keyframe, optimise, relocalise
   int frames = 0;
   int posed = 0;
   int lost = 0;
@@ -89,6 +93,13 @@ class Odometry {
   /// map must outlive this. T_world_camera_start: the camera's pose at the first image. Throws InputError on bad
   /// options.
   Odometry(const Camera& camera, MapView& map, const OdometryOptions& options, const SE3& T_world_camera_start);
+
+  /// For a start pose that is not known: images are looked up until one is found. relocalizer: as for set_relocalizer.
+  Odometry(const Camera& camera, MapView& map, const OdometryOptions& options, Relocalizer& relocalizer);
+
+  /// Looks up images in the map (same camera) once tracking is lost and no keyframe of the window fits: each of the
+  /// first 15, then every fifth. It must outlive this; null: the window is all that is searched.
+  void set_relocalizer(Relocalizer* relocalizer) { relocalizer_ = relocalizer; }
 
   /// Finds the camera of the next image (the camera's size, grey 0..1, else InputError) taken at `time` [s].
   TrackResult track(const GrayImage& image, double time);
@@ -117,6 +128,8 @@ class Odometry {
 
   Alignment track_against_newest(const FramePyramid& pyramid, double time);
   Alignment search_window(const FramePyramid& pyramid);
+  /// Looks the image up; where found, the window starts afresh from there. False: not found, or not tried.
+  bool relocalise(const GrayImage& image, const FramePyramid& pyramid, double time, TrackResult& result);
   bool as_good_as_last(const Alignment& alignment) const;
   bool believed(const Alignment& alignment, bool was_lost) const;
   bool add_keyframe(const FramePyramid& pyramid, double time, const SE3& T_world_camera, const Brightness& brightness,
@@ -126,7 +139,7 @@ class Odometry {
   Camera camera_;
   MapView& map_;
   OdometryOptions options_;
-  SE3 T_world_camera_start_;
+  std::optional<SE3> T_world_camera_start_;  // none: to be found
   Tracker tracker_;
   KeyframeMaker maker_;
   WindowOptimizer optimizer_;
@@ -140,6 +153,8 @@ class Odometry {
   double last_rmse_ = 0.0;
   double last_inlier_share_ = 1.0;
   bool lost_ = false;
+  Relocalizer* relocalizer_ = nullptr;
+  int lost_in_a_row_ = 0;
   OdometryStatistics statistics_;
 };
 
