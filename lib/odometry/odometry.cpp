@@ -42,12 +42,23 @@ class StageTimer {
   Clock::time_point start_;
 };
 
+bool shows_nothing(const FramePyramid& pyramid) {
+  constexpr double least_spread = 1.0 / 255;
+  cv::Scalar mean;
+  cv::Scalar spread;
+  cv::meanStdDev(pyramid.gray.back(), mean, spread);
+  return !(spread[0] > least_spread);
+}
+
 }  // namespace
 
 void AcceptOptions::check() const {
   require(min_inliers >= 0.0 && min_inliers <= 1.0, "accept.min_inliers", "in [0, 1]");
   require(min_coverage >= 0.0 && min_coverage <= 1.0, "accept.min_coverage", "in [0, 1]");
   require(min_contrast >= 0.0 && max_contrast > min_contrast, "accept.min_contrast", "in [0, max_contrast)");
+  require(min_correlation >= -1.0 && min_correlation <= 1.0, "accept.min_correlation", "in [-1, 1]");
+  require(min_map_correlation >= -1.0 && min_map_correlation <= 1.0, "accept.min_map_correlation", "in [-1, 1]");
+  require(min_map_share >= 0.0 && min_map_share <= 1.0, "accept.min_map_share", "in [0, 1]");
   require(retrack >= 1.0, "accept.retrack", "at least 1");
   require(retrack_outliers >= 0.0, "accept.retrack_outliers", "at least 0");
   require(found_inliers >= 0.0 && found_inliers <= 1.0, "accept.found_inliers", "in [0, 1]");
@@ -105,7 +116,9 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
   }
   TrackResult result;
   ++statistics_.frames;
-  if (reference_ == nullptr) {
+  if (shows_nothing(pyramid)) {
+    // A covered lens is not worth a search.
+  } else if (reference_ == nullptr) {
     // Until the first keyframe stands, the camera is where the caller said.
     if (!T_world_camera_start_) {
       relocalise(image, pyramid, time, result);
@@ -125,6 +138,7 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
     result.inlier_share = alignment.inlier_share;
     result.coverage = alignment.coverage;
     result.rmse = alignment.rmse;
+    result.correlation = alignment.correlation;
     if (believed(alignment, lost_)) {
       result.status = lost_ ? TrackStatus::relocalised : TrackStatus::ok;
       const SE3 T_keyframe_camera = alignment.T_target_host.inverse();
@@ -146,6 +160,7 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
         const Brightness brightness = compose_brightness(alignment.brightness, reference_->brightness);
         if (add_keyframe(pyramid, time, result.T_world_camera, brightness, result)) {
           result.covariance = options_.covariance_factor * reference_->covariance;
+          if (map_contradicts(result)) relocalise(image, pyramid, time, result);
         }
       }
     } else {
@@ -156,7 +171,6 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
     result.T_world_camera = SE3();
     history_.stop();
     lost_ = reference_ != nullptr;
-    ++lost_in_a_row_;
     ++statistics_.lost;
   } else {
     lost_in_a_row_ = 0;
@@ -235,7 +249,8 @@ bool Odometry::relocalise(const GrayImage& image, const FramePyramid& pyramid, d
   // A look-up costs as much as tracking many frames: after a while it is tried less often.
   constexpr int eager = 15;
   constexpr int every = 5;
-  if (relocalizer_ == nullptr || (lost_in_a_row_ >= eager && lost_in_a_row_ % every != 0)) return false;
+  const int before = lost_in_a_row_++;
+  if (relocalizer_ == nullptr || (before >= eager && before % every != 0)) return false;
   Relocalization answer;
   {
     const StageTimer timer(statistics_.stages[stage_relocalise]);
@@ -256,7 +271,15 @@ bool Odometry::believed(const Alignment& a, bool was_lost) const {
   return a.finished && a.T_target_host.is_finite() &&
          a.inlier_share >= (was_lost ? accept.found_inliers : accept.min_inliers) &&
          a.coverage >= (was_lost ? accept.found_coverage : accept.min_coverage) && a.contrast >= accept.min_contrast &&
-         a.contrast <= accept.max_contrast && std::abs(a.brightness.a) <= options_.tracker.max_log_gain;
+         a.contrast <= accept.max_contrast && a.correlation >= accept.min_correlation &&
+         std::abs(a.brightness.a) <= options_.tracker.max_log_gain;
+}
+
+bool Odometry::map_contradicts(const TrackResult& keyframe) {
+  const AcceptOptions& accept = options_.accept;
+  const bool agreed = map_agreed_;
+  map_agreed_ = keyframe.map_correlation >= accept.min_map_correlation;
+  return options_.keyframe.anchor.enabled && agreed && !map_agreed_ && keyframe.map_share >= accept.min_map_share;
 }
 
 bool Odometry::add_keyframe(const FramePyramid& pyramid, double time, const SE3& T_world_camera,
@@ -280,6 +303,7 @@ bool Odometry::add_keyframe(const FramePyramid& pyramid, double time, const SE3&
     if (made.map_flow <= anchor.render_again_flow) break;
   }
   result.map_share = made.map_share;
+  result.map_correlation = made.anchor.correlation;
   if (made.keyframe == nullptr) return false;
   const std::shared_ptr<Keyframe>& keyframe = made.keyframe;
   keyframe->id = static_cast<int>(keyframe_records_.size());

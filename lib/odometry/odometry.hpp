@@ -25,6 +25,13 @@ struct AcceptOptions {
   double min_coverage = 0.25;  // share of the reference's points in view
   double min_contrast = 0.5;   // the image's spread at the points over the expected one: a blank image has none
   double max_contrast = 2.0;
+  // Of the image with the reference at its points, outliers included. Right poses reach 0.90 and more, on blurred real
+  // images, too (median 0.99); images of another place or room, aligned as well as they can be, 0.07.
+  double min_correlation = 0.5;
+  // Of a keyframe with the map's rendered view, which must cover min_map_share of it. Right poses reach 0.71 and more
+  // in the coarsest map. Where it falls below from one keyframe to the next, the camera is looked for elsewhere.
+  double min_map_correlation = 0.3;
+  double min_map_share = 0.6;
   double retrack = 1.5;            // residual over the last frame's beyond which other guesses are tried
   double retrack_outliers = 0.05;  // growth of the share of outliers beyond which they are tried, too
   double found_inliers = 0.7;      // as min_inliers, for a camera that was lost
@@ -57,11 +64,13 @@ struct TrackResult {
   SE3 T_world_camera;                      // identity when lost: no pose is made up
   Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera; zero when lost
   bool keyframe = false;
-  double inlier_share = 0.0;  // of the points in view
-  double coverage = 0.0;      // share of the reference keyframe's points in view
-  double rmse = 0.0;          // [grey] of the inliers
-  double map_share = 0.0;     // share of the last keyframe attempt's image where the map has depth
-  bool anchored = false;      // a keyframe that the map's colours hold in place
+  double inlier_share = 0.0;     // of the points in view
+  double coverage = 0.0;         // share of the reference keyframe's points in view
+  double rmse = 0.0;             // [grey] of the inliers
+  double correlation = 0.0;      // of the image with the reference keyframe at its points, -1..1
+  double map_correlation = 0.0;  // the same of the last keyframe attempt's image with the map's rendered view
+  double map_share = 0.0;        // share of the last keyframe attempt's image where the map has depth
+  bool anchored = false;         // a keyframe that the map's colours hold in place
   double milliseconds = 0.0;
 };
 
@@ -132,6 +141,8 @@ class Odometry {
   bool relocalise(const GrayImage& image, const FramePyramid& pyramid, double time, TrackResult& result);
   bool as_good_as_last(const Alignment& alignment) const;
   bool believed(const Alignment& alignment, bool was_lost) const;
+  /// Whether the map has just stopped to look like the images.
+  bool map_contradicts(const TrackResult& keyframe);
   bool add_keyframe(const FramePyramid& pyramid, double time, const SE3& T_world_camera, const Brightness& brightness,
                     TrackResult& result);
   void optimise();
@@ -154,7 +165,8 @@ class Odometry {
   double last_inlier_share_ = 1.0;
   bool lost_ = false;
   Relocalizer* relocalizer_ = nullptr;
-  int lost_in_a_row_ = 0;
+  int lost_in_a_row_ = 0;    // images that show something
+  bool map_agreed_ = false;  // at the last keyframe
   OdometryStatistics statistics_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -92,14 +93,22 @@ ViewSignature PlaceIndex::signature(const GrayImage& gray) const {
 }
 
 std::vector<PlaceMatch> PlaceIndex::match(const ViewSignature& image) const {
+  // Comparing corners takes a millisecond or two a place: in a large map only those that may be it are worth that.
+  constexpr std::size_t most_by_corners = 64;
   std::vector<PlaceMatch> matches(places_.size());
-  parallel_for(static_cast<int>(places_.size()), 4, [&](int begin, int end) {
+  parallel_for(static_cast<int>(places_.size()), 8, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
-      PlaceMatch& match = matches[static_cast<std::size_t>(k)];
-      match.place = static_cast<std::size_t>(k);
-      compare_thumbnails(image, match);
-      match_points(image, match);
+      matches[static_cast<std::size_t>(k)].place = static_cast<std::size_t>(k);
+      compare_thumbnails(image, matches[static_cast<std::size_t>(k)]);
     }
+  });
+  std::vector<std::size_t> order(matches.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return matches[a].similarity > matches[b].similarity; });
+  order.resize(std::min(order.size(), most_by_corners));
+  parallel_for(static_cast<int>(order.size()), 4, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) match_points(image, matches[order[static_cast<std::size_t>(k)]]);
   });
   return matches;
 }

@@ -65,7 +65,7 @@ class PlaceIndex {
 
   /// `gray` is of camera()'s size, 0..1.
   ViewSignature signature(const GrayImage& gray) const;
-  /// Every place kept, in their order.
+  /// Every place kept, in their order. Corners only of those that the thumbnails favour.
   std::vector<PlaceMatch> match(const ViewSignature& image) const;
 
  private:

@@ -33,8 +33,8 @@ struct RelocalizerOptions {
   double min_inliers = 0.4;          // share of the points in view that must agree
   double max_position_sigma = 0.02;  // [m] standard deviation that alignment claims, times root of covariance_factor
   double covariance_factor = 20.0;   // as OdometryOptions has it
-  double disturbance = 0.03;         // [m], and as much in [rad / 2]: alignment must come back from there
-  double return_distance = 0.01;     // [m] within which it must
+  double disturbance = 0.02;         // [m] along and half as many rad about each axis: from there alignment
+  double return_distance = 0.02;     // [m] must come back to within this
 
   /// Throws InputError naming the field.
   void check() const;

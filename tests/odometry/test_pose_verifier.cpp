@@ -24,13 +24,15 @@ class PoseVerifierTest : public testing::Test {
 };
 
 TEST_F(PoseVerifierTest, GainAndOffsetDoNotCount) {
-  const GrayImage darker = 0.5F * here_ + 0.2F;
+  GrayImage darker;
+  here_.convertTo(darker, CV_32F, 0.5, 0.2);
   const PoseEvidence evidence = compare_with_map(darker, here_, depth_, options_);
   EXPECT_NEAR(evidence.score, 1.0, 1e-4);
   EXPECT_NEAR(evidence.correlation, 1.0, 1e-4);
   EXPECT_EQ(evidence.coverage, 1.0);
   EXPECT_TRUE(fault_of(evidence, options_).empty());
-  const GrayImage negative = 1.0F - here_;
+  GrayImage negative;
+  here_.convertTo(negative, CV_32F, -1.0, 1.0);
   EXPECT_NEAR(compare_with_map(negative, here_, depth_, options_).score, -1.0, 1e-4);
 }
 

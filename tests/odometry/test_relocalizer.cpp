@@ -75,8 +75,8 @@ TEST_F(RelocalizerTest, FindsEveryViewOfItsRoom) {
 
 TEST_F(RelocalizerTest, ExposureDoesNotMatter) {
   Relocalizer relocalizer(camera_, room_, places());
-  GrayImage image = room_.gray(camera_, test::room_path(40));
-  image = 0.6F * image + 0.1F;
+  GrayImage image;
+  room_.gray(camera_, test::room_path(40)).convertTo(image, CV_32F, 0.6, 0.1);
   const Relocalization answer = relocalizer.find(image);
   ASSERT_TRUE(answer.found) << answer.reason;
   EXPECT_LT(distance(answer.T_world_camera, test::room_path(40)), 0.005);
