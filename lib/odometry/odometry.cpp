@@ -57,6 +57,7 @@ void AcceptOptions::check() const {
   require(min_coverage >= 0.0 && min_coverage <= 1.0, "accept.min_coverage", "in [0, 1]");
   require(min_contrast >= 0.0 && max_contrast > min_contrast, "accept.min_contrast", "in [0, max_contrast)");
   require(min_correlation >= -1.0 && min_correlation <= 1.0, "accept.min_correlation", "in [-1, 1]");
+  require(sure_correlation >= min_correlation, "accept.sure_correlation", "at least min_correlation");
   require(min_map_correlation >= -1.0 && min_map_correlation <= 1.0, "accept.min_map_correlation", "in [-1, 1]");
   require(min_map_share >= 0.0 && min_map_share <= 1.0, "accept.min_map_share", "in [0, 1]");
   require(retrack >= 1.0, "accept.retrack", "at least 1");
@@ -139,7 +140,13 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
     result.coverage = alignment.coverage;
     result.rmse = alignment.rmse;
     result.correlation = alignment.correlation;
-    if (believed(alignment, lost_)) {
+    const bool is_believed = believed(alignment, lost_);
+    const bool is_doubtful = is_believed && !lost_ && !as_good_as_last(alignment) &&
+                             alignment.correlation < options_.accept.sure_correlation;
+    if (is_doubtful &&
+        relocalise(image, pyramid, time, result, reference_->T_world_camera * alignment.T_target_host.inverse())) {
+      // The camera is where the map says.
+    } else if (is_believed) {
       result.status = lost_ ? TrackStatus::relocalised : TrackStatus::ok;
       const SE3 T_keyframe_camera = alignment.T_target_host.inverse();
       records_.push_back({time, reference_->id, T_keyframe_camera});
@@ -160,7 +167,7 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
         const Brightness brightness = compose_brightness(alignment.brightness, reference_->brightness);
         if (add_keyframe(pyramid, time, result.T_world_camera, brightness, result)) {
           result.covariance = options_.covariance_factor * reference_->covariance;
-          if (map_contradicts(result)) relocalise(image, pyramid, time, result);
+          if (map_contradicts(result)) relocalise(image, pyramid, time, result, result.T_world_camera);
         }
       }
     } else {
@@ -245,7 +252,8 @@ Alignment Odometry::search_window(const FramePyramid& pyramid) {
   return best;
 }
 
-bool Odometry::relocalise(const GrayImage& image, const FramePyramid& pyramid, double time, TrackResult& result) {
+bool Odometry::relocalise(const GrayImage& image, const FramePyramid& pyramid, double time, TrackResult& result,
+                          const std::optional<SE3>& T_world_tracked) {
   // A look-up costs as much as tracking many frames: after a while it is tried less often.
   constexpr int eager = 15;
   constexpr int every = 5;
@@ -257,6 +265,12 @@ bool Odometry::relocalise(const GrayImage& image, const FramePyramid& pyramid, d
     answer = history_.has_last ? relocalizer_->find(image, history_.last) : relocalizer_->find(image);
   }
   if (!answer.found) return false;
+  constexpr double same_distance = 0.1;  // [m]
+  constexpr double same_angle = 0.1;     // [rad]
+  if (T_world_tracked) {
+    const SE3 T_tracked_found = T_world_tracked->inverse() * answer.T_world_camera;
+    if (T_tracked_found.translation().norm() < same_distance && T_tracked_found.angle() < same_angle) return false;
+  }
   window_.keyframes.clear();
   if (!add_keyframe(pyramid, time, answer.T_world_camera, {}, result)) return false;
   result.status = TrackStatus::relocalised;

@@ -28,6 +28,7 @@ struct AcceptOptions {
   // Of the image with the reference at its points, outliers included. Right poses reach 0.90 and more, on blurred real
   // images, too (median 0.99); images of another place or room, aligned as well as they can be, 0.07.
   double min_correlation = 0.5;
+  double sure_correlation = 0.9;  // below, a frame that fits worse than the last one is looked up: is it elsewhere?
   // Of a keyframe with the map's rendered view, which must cover min_map_share of it. Right poses reach 0.71 and more
   // in the coarsest map. Where it falls below from one keyframe to the next, the camera is looked for elsewhere.
   double min_map_correlation = 0.3;
@@ -137,8 +138,10 @@ class Odometry {
 
   Alignment track_against_newest(const FramePyramid& pyramid, double time);
   Alignment search_window(const FramePyramid& pyramid);
-  /// Looks the image up; where found, the window starts afresh from there. False: not found, or not tried.
-  bool relocalise(const GrayImage& image, const FramePyramid& pyramid, double time, TrackResult& result);
+  /// Looks the image up; where found, the window starts afresh from there. False: not found, not tried, or found where
+  /// tracking has it (T_world_tracked).
+  bool relocalise(const GrayImage& image, const FramePyramid& pyramid, double time, TrackResult& result,
+                  const std::optional<SE3>& T_world_tracked = std::nullopt);
   bool as_good_as_last(const Alignment& alignment) const;
   bool believed(const Alignment& alignment, bool was_lost) const;
   /// Whether the map has just stopped to look like the images.

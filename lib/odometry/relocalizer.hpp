@@ -31,7 +31,7 @@ struct RelocalizerOptions {
   double same_angle = 5.0 / 57.3;    // [rad]
   double ambiguity = 0.1;            // score by which the best pose must beat every other one
   double min_inliers = 0.4;          // share of the points in view that must agree
-  double max_position_sigma = 0.02;  // [m] standard deviation that alignment claims, times root of covariance_factor
+  double max_position_sigma = 0.05;  // [m] standard deviation that alignment claims, times root of covariance_factor
   double covariance_factor = 20.0;   // as OdometryOptions has it
   double disturbance = 0.02;         // [m] along and half as many rad about each axis: from there alignment
   double return_distance = 0.02;     // [m] must come back to within this

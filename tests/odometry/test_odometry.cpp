@@ -183,16 +183,19 @@ TEST_F(OdometryTest, StartsWithoutAPose) {
 }
 
 TEST_F(OdometryTest, AKidnappedCameraIsFoundAtOnce) {
-  // Half way it is elsewhere, facing another wall.
-  const auto path = [](int k) { return test::room_path(k < 20 ? k : k + 120); };
-  test::BoxRoom map;
-  Relocalizer relocalizer(camera_, map, path_places());
-  Odometry odometry(camera_, map, {}, path(0));
-  odometry.set_relocalizer(&relocalizer);
-  for (int k = 0; k < 40; ++k) {
-    const TrackResult result = odometry.track(world_.gray(camera_, path(k)), k / 30.0);
-    EXPECT_EQ(result.status, k == 20 ? TrackStatus::relocalised : TrackStatus::ok) << k;
-    EXPECT_LT((path(k).inverse() * result.T_world_camera).translation().norm(), 0.005) << k;
+  for (const int jump : {45, 60, 105, 150, 180}) {
+    SCOPED_TRACE(jump);
+    // Half way it is elsewhere, where the walls' waves fit so well that 8 in 10 points agree.
+    const auto path = [jump](int k) { return test::room_path(k < 15 ? k : k + jump); };
+    test::BoxRoom map;
+    Relocalizer relocalizer(camera_, map, path_places());
+    Odometry odometry(camera_, map, {}, path(0));
+    odometry.set_relocalizer(&relocalizer);
+    for (int k = 0; k < 25; ++k) {
+      const TrackResult result = odometry.track(world_.gray(camera_, path(k)), k / 30.0);
+      EXPECT_EQ(result.status, k == 15 ? TrackStatus::relocalised : TrackStatus::ok) << k;
+      EXPECT_LT((path(k).inverse() * result.T_world_camera).translation().norm(), 0.005) << k;
+    }
   }
 }
 
