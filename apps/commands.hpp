@@ -25,6 +25,7 @@ void add_convert(CLI::App& app, Common& common);
 void add_train(CLI::App& app, Common& common);
 void add_render(CLI::App& app, Common& common);
 void add_track(CLI::App& app, Common& common);
+void add_relocalise(CLI::App& app, Common& common);
 void add_eval(CLI::App& app, Common& common);
 void add_eval_depth(CLI::App& app, Common& common);
 void add_view(CLI::App& app, Common& common);

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   apps::add_train(app, common);
   apps::add_render(app, common);
   apps::add_track(app, common);
+  apps::add_relocalise(app, common);
   apps::add_eval(app, common);
   apps::add_eval_depth(app, common);
   apps::add_view(app, common);

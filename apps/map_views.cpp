@@ -23,6 +23,69 @@ std::string needed(const std::string& method, const char* flag, const std::strin
   return value;
 }
 
+MapHalf half_of(const std::vector<Eigen::Vector3f>& points, const std::string& side) {
+  const std::string axes = "xyz";
+  const std::size_t axis = side.size() == 2 ? axes.find(side[1]) : std::string::npos;
+  if (axis == std::string::npos || (side[0] != '+' && side[0] != '-')) {
+    throw InputError("--without-half", "must be +x, -x, +y, -y, +z or -z, is " + side);
+  }
+  MapHalf half{static_cast<Eigen::Index>(axis), side[0] == '+' ? 1.0F : -1.0F, 0.0F};
+  std::vector<float> along;
+  along.reserve(points.size());
+  for (const Eigen::Vector3f& p : points) along.push_back(half.sign * p[half.axis]);
+  const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
+  std::nth_element(along.begin(), middle, along.end());
+  half.border = middle == along.end() ? 0.0F : *middle;
+  return half;
+}
+
+std::vector<Eigen::Vector3f> positions(const Gaussians& gaussians) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(gaussians.size());
+  for (std::size_t i = 0; i < gaussians.size(); ++i) points.emplace_back(&gaussians.positions[3 * i]);
+  return points;
+}
+
+/// `values` of the rows that are kept, `width` values a row.
+void keep_rows(std::vector<float>& values, const std::vector<std::size_t>& rows, std::size_t width) {
+  std::vector<float> kept;
+  kept.reserve(rows.size() * width);
+  for (const std::size_t row : rows) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * width);
+    kept.insert(kept.end(), begin, begin + static_cast<std::ptrdiff_t>(width));
+  }
+  values = std::move(kept);
+}
+
+Gaussians without_half(Gaussians gaussians, const std::string& side) {
+  if (side.empty()) return gaussians;
+  const std::vector<Eigen::Vector3f> points = positions(gaussians);
+  const MapHalf half = half_of(points, side);
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!half.contains(points[i])) rows.push_back(i);
+  }
+  keep_rows(gaussians.positions, rows, 3);
+  keep_rows(gaussians.log_scales, rows, 3);
+  keep_rows(gaussians.rotations, rows, 4);
+  keep_rows(gaussians.opacity_logits, rows, 1);
+  keep_rows(gaussians.sh, rows, 3 * static_cast<std::size_t>(gaussians.coefficients()));
+  return gaussians;
+}
+
+PointCloud without_half(const PointCloud& cloud, const std::string& side) {
+  if (side.empty()) return cloud;
+  const MapHalf half = half_of(cloud.points, side);
+  PointCloud kept;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (half.contains(cloud.points[i])) continue;
+    kept.points.push_back(cloud.points[i]);
+    if (cloud.has_colors()) kept.colors.push_back(cloud.colors[i]);
+    if (cloud.has_normals()) kept.normals.push_back(cloud.normals[i]);
+  }
+  return kept;
+}
+
 // Basis function of degree 0 of spherical harmonics.
 constexpr float sh_constant = 0.28209479F;
 
@@ -58,7 +121,7 @@ OpenedView open_view(const Common& common, const std::string& method, const MapF
   OpenedView opened;
   switch (preset.view) {
     case ViewKind::gaussians: {
-      const Gaussians gaussians = read_map(needed(method, "--map", flags.map));
+      const Gaussians gaussians = without_half(read_map(needed(method, "--map", flags.map)), flags.without_half);
       GaussianViewOptions options;
       options.depth_mode = flags.depth.empty() ? preset.depth_mode : depth_mode(flags.depth);
       options.sigma = read_sigma_model(flags.map);
@@ -67,10 +130,12 @@ OpenedView open_view(const Common& common, const std::string& method, const MapF
       break;
     }
     case ViewKind::interpolation:
-      opened.view = std::make_unique<InterpolationView>(read_point_cloud(needed(method, "--cloud", flags.cloud)));
+      opened.view = std::make_unique<InterpolationView>(
+          without_half(read_point_cloud(needed(method, "--cloud", flags.cloud)), flags.without_half));
       break;
     case ViewKind::surfels:
-      opened.view = std::make_unique<SurfelView>(read_point_cloud(needed(method, "--cloud", flags.cloud)));
+      opened.view = std::make_unique<SurfelView>(
+          without_half(read_point_cloud(needed(method, "--cloud", flags.cloud)), flags.without_half));
       break;
     case ViewKind::sensor: {
       auto view = std::make_unique<SensorView>();
@@ -81,6 +146,10 @@ OpenedView open_view(const Common& common, const std::string& method, const MapF
     }
   }
   return opened;
+}
+
+MapHalf map_half(const MapFlags& flags, const std::string& side) {
+  return half_of(flags.map.empty() ? read_point_cloud(flags.cloud).points : positions(read_map(flags.map)), side);
 }
 
 MapPoints read_map_points(const MapFlags& flags) {

@@ -18,10 +18,21 @@ namespace odosplat::apps {
 
 /// Where a method's map comes from.
 struct MapFlags {
-  std::string map{};    // of Gaussians
-  std::string cloud{};  // point cloud
-  std::string depth{};  // of Gaussians: surface, expected, median, blended; empty: the method's
+  std::string map{};           // of Gaussians
+  std::string cloud{};         // point cloud
+  std::string depth{};         // of Gaussians: surface, expected, median, blended; empty: the method's
+  std::string without_half{};  // "+x", "-x", ... "-z": the half of the map on that side is left out; empty: all of it
 };
+
+/// One of the two halves of a map: what lies beyond the median of its points along an axis.
+struct MapHalf {
+  Eigen::Index axis;
+  float sign;
+  float border;  // [m] sign * median
+  bool contains(const Eigen::Vector3f& p_world) const { return sign * p_world[axis] > border; }
+};
+/// side: as in MapFlags; InputError for another word.
+MapHalf map_half(const MapFlags& flags, const std::string& side);
 
 void add_map_flags(CLI::App* command, MapFlags& flags);
 

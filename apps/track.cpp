@@ -12,6 +12,8 @@
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/odometry/relocalizer.hpp"
+#include "places.hpp"
 #include "playback.hpp"
 #include "track_record.hpp"
 
@@ -23,7 +25,8 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence) {
     double v[7];
     std::istringstream text(job.start);
     for (double& value : v) {
-      if (!(text >> value)) throw InputError("--start", "must be truth or \"tx ty tz qx qy qz qw\", is " + job.start);
+      if (!(text >> value))
+        throw InputError("--start", "must be truth, auto or \"tx ty tz qx qy qz qw\", is " + job.start);
     }
     const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     if (!(q.norm() > 1e-6)) throw InputError("--start", "the quaternion has length zero");
@@ -109,17 +112,48 @@ OdometryOptions odometry_options(const TrackJob& job) {
   return options;
 }
 
+namespace {
+
+/// None where it is not wanted, or where there is no map to look at.
+std::optional<Relocalizer> make_relocalizer(const TrackJob& job, const Camera& camera, const OpenedView& opened) {
+  if (opened.sensor != nullptr) {
+    if (job.start == "auto") throw InputError("--start", "auto needs a map, which method rgbd has not");
+    return std::nullopt;
+  }
+  if (!job.relocalise && job.start != "auto") return std::nullopt;
+  return std::make_optional<Relocalizer>(camera, *opened.view, places_of(job.map, job.places));
+}
+
+/// In place: an odometry cannot move.
+void start_odometry(std::optional<Odometry>& odometry, const TrackJob& job, const Sequence& sequence,
+                    OpenedView& opened, std::optional<Relocalizer>& relocalizer) {
+  const OdometryOptions options = odometry_options(job);
+  // The first rendering loads the device's programs, and a look-up renders every place: a camera would not wait.
+  if (job.start == "auto") {
+    if (job.realtime) relocalizer->prepare();
+    odometry.emplace(sequence.camera(), *opened.view, options, *relocalizer);
+    return;
+  }
+  const SE3 T_world_camera_start = start_pose(job, sequence);
+  if (job.realtime && opened.sensor == nullptr) {
+    opened.view->render(sequence.camera(), T_world_camera_start, {true, true});
+    if (relocalizer) relocalizer->prepare();
+  }
+  odometry.emplace(sequence.camera(), *opened.view, options, T_world_camera_start);
+  if (relocalizer) odometry->set_relocalizer(&*relocalizer);
+}
+
+}  // namespace
+
 TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
   ensure_output_folder(job.out);
   const Sequence sequence = open_sequence(job.sequence);
   if (sequence.size() == 0) throw InputError(sequence.name(), "holds no images");
   OpenedView opened = open_view(common, job.method, job.map, {job.depth_noise.model, job.seed});
-  const SE3 T_world_camera_start = start_pose(job, sequence);
-  // The first rendering loads the device's programs, which a camera would not wait for.
-  if (job.realtime && opened.sensor == nullptr) {
-    opened.view->render(sequence.camera(), T_world_camera_start, {true, true});
-  }
-  Odometry odometry(sequence.camera(), *opened.view, odometry_options(job), T_world_camera_start);
+  std::optional<Relocalizer> relocalizer = make_relocalizer(job, sequence.camera(), opened);
+  std::optional<Odometry> started;
+  start_odometry(started, job, sequence, opened, relocalizer);
+  Odometry& odometry = *started;
   TrackRecord record;
   const double cpu_before = cpu_seconds();
   const bool played = [&] {
@@ -137,6 +171,7 @@ void add_track(CLI::App& app, Common& common) {
   CLI::App* command = add_command(app, common, "track", "localise a sequence's camera in a map");
   auto job = std::make_shared<TrackJob>();
   auto anchor = std::make_shared<std::string>();
+  auto relocalise = std::make_shared<std::string>("on");
   add_sequence_flags(command, job->sequence);
   add_map_flags(command, job->map);
   command->add_option("--method", job->method, method_names());
@@ -144,7 +179,11 @@ void add_track(CLI::App& app, Common& common) {
       ->add_option("--out", job->out,
                    "folder for trajectory.txt, trajectory_live.txt, status.csv, covariance.csv, report.json")
       ->required();
-  command->add_option("--start", job->start, "pose of the first image: truth, or \"tx ty tz qx qy qz qw\" [m]");
+  command->add_option("--start", job->start,
+                      "pose of the first image: truth, \"tx ty tz qx qy qz qw\" [m], or auto (it is looked up)");
+  command->add_option("--relocalise", *relocalise, "look images up in the map when lost: on or off")
+      ->check(CLI::IsMember({"on", "off"}));
+  command->add_option("--places", job->places, places_help);
   command
       ->add_option("--anchor", *anchor,
                    "align keyframes with the map's rendered image: on or off (default: on for gaussian, else off)")
@@ -154,7 +193,8 @@ void add_track(CLI::App& app, Common& common) {
                     "frame, same bits every time)");
   add_depth_noise_flag(command, job->depth_noise);
   command->add_option("--seed", job->seed, "seed of the pixel selector and of depth noise");
-  command->final_callback([&common, job, anchor] {
+  command->final_callback([&common, job, anchor, relocalise] {
+    job->relocalise = *relocalise == "on";
     if (!anchor->empty()) job->anchor = *anchor == "on";
     const TrackOutcome o = track_sequence(common, *job);
     std::printf("%s: %d of %d frames posed, %d lost, %d keyframes, %.1f ms a frame (95 %%: %.1f ms)\n",

@@ -14,7 +14,9 @@ struct TrackJob {
   std::string method = "gaussian";
   MapFlags map;
   std::string out;
-  std::string start = "truth";  // or "tx ty tz qx qy qz qw"
+  std::string start = "truth";  // or auto, or "tx ty tz qx qy qz qw"
+  bool relocalise = true;       // look lost frames up in the map
+  std::string places;           // to look from; empty: where the map says it was seen from
   std::optional<bool> anchor;   // of the map's colours; none: as the method has it
   DepthNoiseFlags depth_noise;
   bool realtime = false;         // at the sequence's rate, late frames dropped

@@ -136,11 +136,14 @@ void run(const TrainJob& job, Trainer& trainer) {
   }
 }
 
-/// The map with its settings, and how sure its depth is.
+/// The map with its settings, where its images were taken, and how sure its depth is.
 void write_result(const TrainJob& job, const compute::Context& device, const Trainer& trainer, TrainingViews& views,
                   MapView* surface, double shared_sigma) {
   const Gaussians gaussians = trainer.gaussians();
   std::vector<std::string> notes = trainer.options().describe();
+  std::vector<SE3> poses;
+  for (int i = 0; i < views.count(); ++i) poses.push_back(views.T_world_camera(i));
+  for (const std::string& line : place_lines(thinned_places(poses))) notes.push_back(line);
   if (surface != nullptr) {
     SigmaCalibrationOptions options;
     options.rasterizer = trainer.options().rasterizer;

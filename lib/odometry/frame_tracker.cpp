@@ -14,6 +14,10 @@ void AcceptOptions::check() const {
   require(min_inliers >= 0.0 && min_inliers <= 1.0, "accept.min_inliers", "in [0, 1]");
   require(min_coverage >= 0.0 && min_coverage <= 1.0, "accept.min_coverage", "in [0, 1]");
   require(min_contrast >= 0.0 && max_contrast > min_contrast, "accept.min_contrast", "in [0, max_contrast)");
+  require(min_correlation >= -1.0 && min_correlation <= 1.0, "accept.min_correlation", "in [-1, 1]");
+  require(sure_correlation >= min_correlation, "accept.sure_correlation", "at least min_correlation");
+  require(min_map_correlation >= -1.0 && min_map_correlation <= 1.0, "accept.min_map_correlation", "in [-1, 1]");
+  require(min_map_share >= 0.0 && min_map_share <= 1.0, "accept.min_map_share", "in [0, 1]");
   require(retrack >= 1.0, "accept.retrack", "at least 1");
   require(retrack_outliers >= 0.0, "accept.retrack_outliers", "at least 0");
   require(found_inliers >= 0.0 && found_inliers <= 1.0, "accept.found_inliers", "in [0, 1]");
@@ -39,15 +43,17 @@ TrackedFrame FrameTracker::track(const FramePyramid& pyramid, double time) {
   frame.found = believed(alignment, lost_);
   if (!frame.found) return frame;
   const ReferenceFrame& host = reference();
+  frame.doubtful = !lost_ && !as_good_as_last(alignment) && alignment.correlation < options_.accept.sure_correlation;
   frame.keyframe = host.id;
   frame.T_keyframe_camera = alignment.T_target_host.inverse();
   frame.T_world_camera = host.T_world_camera * frame.T_keyframe_camera;
   frame.brightness = compose_brightness(alignment.brightness, host.brightness);
-  // exp(xi) right of T_target_host is exp(-Ad xi) left of T_world_camera; the keyframe's own error comes on top.
+  // exp(xi) right of T_target_host is exp(-Ad xi) left of T_world_camera.
   const Matrix6d adjoint = host.T_world_camera.adjoint();
   Matrix6d information = alignment.information;
   information.diagonal().array() += 1e-9;
-  frame.covariance = adjoint * information.inverse() * adjoint.transpose() + host.covariance;
+  frame.covariance = adjoint * information.inverse() * adjoint.transpose();
+  frame.keyframe_covariance = host.covariance;
   relative_brightness_ = alignment.brightness;
   last_brightness_ = frame.brightness;
   last_rmse_ = alignment.rmse;
@@ -65,6 +71,8 @@ void FrameTracker::set_references(std::vector<ReferenceFrame> references) {
   current_ = references_.size() - 1;
   if (references_.back().id != newest_before) {
     first_rmse_ = 0.0;
+    // After a loss the newest keyframe is the last frame itself, and what was believed of its brightness is not.
+    if (lost_) last_brightness_ = references_.back().brightness;
     relative_brightness_ = relative_brightness(last_brightness_, references_.back().brightness);
     return;
   }
@@ -153,7 +161,8 @@ bool FrameTracker::believed(const Alignment& a, bool was_lost) const {
   return a.finished && a.T_target_host.is_finite() &&
          a.inlier_share >= (was_lost ? accept.found_inliers : accept.min_inliers) &&
          a.coverage >= (was_lost ? accept.found_coverage : accept.min_coverage) && a.contrast >= accept.min_contrast &&
-         a.contrast <= accept.max_contrast && std::abs(a.brightness.a) <= options_.tracker.max_log_gain;
+         a.contrast <= accept.max_contrast && a.correlation >= accept.min_correlation &&
+         std::abs(a.brightness.a) <= options_.tracker.max_log_gain;
 }
 
 }  // namespace odosplat

@@ -18,6 +18,14 @@ struct AcceptOptions {
   double min_coverage = 0.25;  // share of the reference's points in view
   double min_contrast = 0.5;   // the image's spread at the points over the expected one: a blank image has none
   double max_contrast = 2.0;
+  // Of the image with the reference at its points, outliers included. Right poses reach 0.90 and more, on blurred real
+  // images, too (median 0.99); images of another place or room, aligned as well as they can be, 0.07.
+  double min_correlation = 0.5;
+  double sure_correlation = 0.9;  // below, a frame that fits worse than the last one is looked up: is it elsewhere?
+  // Of a keyframe with the map's rendered view, which must cover min_map_share of it. Right poses reach 0.71 and more
+  // in the coarsest map. Where it falls below from one keyframe to the next, the camera is looked for elsewhere.
+  double min_map_correlation = 0.3;
+  double min_map_share = 0.6;
   double retrack = 1.5;            // residual over the last frame's beyond which other guesses are tried
   double retrack_outliers = 0.05;  // growth of the share of outliers beyond which they are tried, too
   double found_inliers = 0.7;      // as min_inliers, for a camera that was lost
@@ -42,9 +50,12 @@ struct TrackedFrame {
   int keyframe = -1;      // the reference's number
   SE3 T_keyframe_camera;
   SE3 T_world_camera;
-  Brightness brightness;                   // of the frame itself
-  Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera, before any factor
-  double keyframe_score = 0.0;             // beyond 1 the frame should become a keyframe
+  Brightness brightness;  // of the frame itself
+  // Of exp(xi) on the left of T_world_camera, before any factor: of the alignment alone, and of the keyframe.
+  Matrix6d covariance = Matrix6d::Zero();
+  Matrix6d keyframe_covariance = Matrix6d::Zero();
+  bool doubtful = false;        // believed, but it fits worse than the last frame: is it elsewhere?
+  double keyframe_score = 0.0;  // beyond 1 the frame should become a keyframe
   bool keyframe_due() const { return keyframe_score > 1.0; }
 };
 

@@ -63,6 +63,7 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   }
   KeyframeOutcome outcome;
   outcome.map_share = made.map_share;
+  outcome.map_correlation = made.anchor.correlation;
   if (made.keyframe == nullptr) return outcome;
   outcome.made = true;
   outcome.anchored = made.anchored;
@@ -72,7 +73,7 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   keyframe->frame = request.frame;
   keyframe->time = request.time;
   if (made.anchored) keyframe->T_world_camera = T_world_keyframe;
-  if (made.anchored && corrected > anchor.reset_flow) window_.keyframes.clear();
+  if (request.fresh || (made.anchored && corrected > anchor.reset_flow)) window_.keyframes.clear();
   const int drop = keyframe_to_drop(window_, camera_, options_.window);
   if (drop >= 0) window_.keyframes.erase(window_.keyframes.begin() + drop);
   window_.keyframes.push_back(keyframe);

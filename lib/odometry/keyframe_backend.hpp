@@ -33,6 +33,7 @@ struct KeyframeRequest {
   double time = 0.0;              // [s]
   SE3 T_world_camera;
   Brightness brightness;
+  bool fresh = false;  // the keyframes that stand are not to be trusted: the window starts anew with this one
 };
 
 /// What came of it.
@@ -41,6 +42,7 @@ struct KeyframeOutcome {
   bool anchored = false;
   bool prefetched = false;             // made from the view that was rendered ahead
   double map_share = 0.0;              // share of the image where the map has depth
+  double map_correlation = 0.0;        // of the image with the map's rendered view at its points, -1..1
   std::vector<ReferenceFrame> window;  // all keyframes as they are now, oldest first
 };
 

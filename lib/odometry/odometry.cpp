@@ -5,11 +5,20 @@
 #include <cmath>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/relocalizer.hpp"
 
 namespace odosplat {
 namespace {
 
-enum StageIndex : std::size_t { stage_pyramid, stage_track };
+enum StageIndex : std::size_t { stage_pyramid, stage_track, stage_relocalise };
+
+bool shows_nothing(const FramePyramid& pyramid) {
+  constexpr double least_spread = 1.0 / 255;
+  cv::Scalar mean;
+  cv::Scalar spread;
+  cv::meanStdDev(pyramid.gray.back(), mean, spread);
+  return !(spread[0] > least_spread);
+}
 
 }  // namespace
 
@@ -20,7 +29,8 @@ void OdometryOptions::check() const {
   window.check();
   optimizer.check();
   accept.check();
-  require(covariance_factor > 0.0, "covariance_factor", "positive");
+  require(frame_covariance_factor > 0.0, "frame_covariance_factor", "positive");
+  require(keyframe_covariance_factor > 0.0, "keyframe_covariance_factor", "positive");
   require(prefetch_images >= 0.0, "prefetch_images", "at least 0");
 }
 
@@ -48,6 +58,12 @@ Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& op
   if (options_.background) thread_ = std::make_unique<KeyframeThread>(backend_);
 }
 
+Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& options, Relocalizer& relocalizer)
+    : Odometry(camera, map, options, SE3()) {
+  T_world_camera_start_.reset();
+  relocalizer_ = &relocalizer;
+}
+
 TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr<MapView> view) {
   const auto start = SteadyClock::now();
   if (thread_ != nullptr) take_over_finished(thread_->take());
@@ -61,49 +77,112 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
   }
   TrackResult result;
   ++counts_.frames;
-  if (front_.empty()) {
+  if (shows_nothing(*request.pyramid)) {
+    // A covered lens is not worth a search.
+  } else if (!front_.empty()) {
+    follow(image, request, result);
+  } else if (!T_world_camera_start_) {
+    relocalise(image, request, result);
+  } else {
     // Until the first keyframe stands, the camera is where the caller said.
-    request.T_world_camera = T_world_camera_start_;
+    request.T_world_camera = *T_world_camera_start_;
     make_keyframe(request, result);
     if (result.keyframe) {
       result.status = TrackStatus::ok;
       result.inlier_share = 1.0;
       result.coverage = 1.0;
     }
-  } else {
-    TrackedFrame frame;
-    {
-      const StageTimer timer(stages_[stage_track]);
-      frame = front_.track(*request.pyramid, time);
-    }
-    result.inlier_share = frame.alignment.inlier_share;
-    result.coverage = frame.alignment.coverage;
-    result.rmse = frame.alignment.rmse;
-    if (frame.found) {
-      result.status = frame.was_lost ? TrackStatus::relocalised : TrackStatus::ok;
-      result.T_world_camera = frame.T_world_camera;
-      result.covariance = options_.covariance_factor * frame.covariance;
-      record_.add_frame(time, frame.keyframe, frame.T_keyframe_camera, frame.was_lost);
-      request.T_world_camera = frame.T_world_camera;
-      request.brightness = frame.brightness;
-      if (frame.keyframe_due()) {
-        make_keyframe(request, result);
-      } else if (thread_ != nullptr && request.view == nullptr) {
-        render_ahead(frame, time);
-      }
-    }
   }
   result.map_share = map_share_;
+  result.map_correlation = map_correlation_;
   if (result.status == TrackStatus::lost) {
+    result.T_world_camera = SE3();
     front_.lose();
     ++counts_.lost;
   } else {
-    front_.confirm(time, result.T_world_camera);
+    lost_in_a_row_ = 0;
     if (result.status == TrackStatus::relocalised) ++counts_.relocalisations;
+    front_.confirm(time, result.T_world_camera);
     ++counts_.posed;
   }
   result.milliseconds = milliseconds_since(start);
   return result;
+}
+
+void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackResult& result) {
+  TrackedFrame frame;
+  {
+    const StageTimer timer(stages_[stage_track]);
+    frame = front_.track(*request.pyramid, request.time);
+  }
+  result.inlier_share = frame.alignment.inlier_share;
+  result.coverage = frame.alignment.coverage;
+  result.rmse = frame.alignment.rmse;
+  result.correlation = frame.alignment.correlation;
+  if (!frame.found) {
+    relocalise(image, request, result);
+    return;
+  }
+  if (frame.doubtful && relocalise(image, request, result, frame.T_world_camera)) return;
+  result.status = frame.was_lost ? TrackStatus::relocalised : TrackStatus::ok;
+  result.T_world_camera = frame.T_world_camera;
+  result.covariance = options_.frame_covariance_factor * frame.covariance +
+                      options_.keyframe_covariance_factor * frame.keyframe_covariance;
+  record_.add_frame(request.time, frame.keyframe, frame.T_keyframe_camera, frame.was_lost);
+  request.T_world_camera = frame.T_world_camera;
+  request.brightness = frame.brightness;
+  if (frame.keyframe_due()) {
+    make_keyframe(request, result);
+    if (result.keyframe && map_contradicts()) relocalise(image, request, result, result.T_world_camera);
+  } else if (thread_ != nullptr && request.view == nullptr) {
+    render_ahead(frame, request.time);
+  }
+}
+
+bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request, TrackResult& result,
+                          const std::optional<SE3>& T_world_tracked) {
+  // A look-up costs as much as tracking many frames: after a while it is tried less often.
+  constexpr int eager = 15;
+  constexpr int every = 5;
+  const int before = lost_in_a_row_++;
+  if (relocalizer_ == nullptr || (before >= eager && before % every != 0)) return false;
+  finish();  // the map is ours from here on
+  Relocalization answer;
+  {
+    const StageTimer timer(stages_[stage_relocalise]);
+    const MotionHistory& history = front_.history();
+    answer = history.has_last ? relocalizer_->find(image, history.last) : relocalizer_->find(image);
+  }
+  if (!answer.found) return false;
+  constexpr double same_distance = 0.1;  // [m]
+  constexpr double same_angle = 0.1;     // [rad]
+  if (T_world_tracked) {
+    const SE3 T_tracked_found = T_world_tracked->inverse() * answer.T_world_camera;
+    if (T_tracked_found.translation().norm() < same_distance && T_tracked_found.angle() < same_angle) return false;
+  }
+  KeyframeRequest afresh = request;
+  afresh.T_world_camera = answer.T_world_camera;
+  afresh.brightness = {};
+  afresh.fresh = true;
+  TrackResult made;
+  front_.lose();  // how the camera came here is not known, nor what was believed of this frame
+  make_keyframe(afresh, made);
+  if (!made.keyframe) return false;
+  result.status = TrackStatus::relocalised;
+  result.T_world_camera = made.T_world_camera;
+  result.covariance = made.covariance;
+  result.keyframe = true;
+  result.anchored = made.anchored;
+  result.inlier_share = answer.inlier_share;
+  result.coverage = 1.0;
+  return true;
+}
+
+bool Odometry::map_contradicts() {
+  const AcceptOptions& accept = options_.accept;
+  const bool agreed = map_agreed_;
+  map_agreed_ = map_correlation_ >= accept.min_map_correlation;
+  return options_.keyframe.anchor.enabled && agreed && !map_agreed_ && map_share_ >= accept.min_map_share;
 }
 
 void Odometry::finish() {
@@ -111,7 +190,8 @@ void Odometry::finish() {
 }
 
 void Odometry::make_keyframe(const KeyframeRequest& request, TrackResult& result) {
-  if (thread_ != nullptr && !front_.empty()) {
+  // With nothing to track against meanwhile, there is nothing to do but wait.
+  if (thread_ != nullptr && !front_.empty() && !request.fresh) {
     thread_->request(request);
     return;
   }
@@ -127,7 +207,7 @@ void Odometry::make_keyframe(const KeyframeRequest& request, TrackResult& result
   }
   if (counts_.keyframes == before) return;
   result.T_world_camera = front_.newest().T_world_camera;
-  result.covariance = options_.covariance_factor * front_.newest().covariance;
+  result.covariance = options_.keyframe_covariance_factor * front_.newest().covariance;
   result.keyframe = true;
   result.anchored = counts_.anchored > anchored_before;
 }
@@ -140,10 +220,11 @@ void Odometry::take_over_finished(const std::optional<FinishedKeyframe>& finishe
 
 void Odometry::take_over(const KeyframeRequest& request, const KeyframeOutcome& outcome) {
   map_share_ = outcome.map_share;
+  map_correlation_ = outcome.map_correlation;
   rendered_ahead_ = false;
   if (!outcome.made) return;
   const ReferenceFrame& keyframe = outcome.window.back();
-  record_.add_keyframe(request.time, keyframe.T_world_camera);
+  record_.add_keyframe(request.time, keyframe.T_world_camera, request.fresh);
   for (const ReferenceFrame& k : outcome.window) record_.move_keyframe(k.id, k.T_world_camera);
   ++counts_.keyframes;
   if (outcome.anchored) ++counts_.anchored;

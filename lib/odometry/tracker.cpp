@@ -26,6 +26,7 @@ struct Sums {
   double target_squares = 0.0;
   double host_sum = 0.0;
   double host_squares = 0.0;
+  double products = 0.0;  // of target and host values
   int in_view = 0;
   int inliers = 0;
 };
@@ -40,6 +41,8 @@ struct Estimate {
 Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, const GrayImage& image,
               const Estimate& at, float huber, float cutoff) {
   constexpr std::size_t block = 256;
+  // [grey] brighter light than this may be there; smoothing takes a little off a clipped pixel.
+  constexpr float saturated = 0.985F;
   const Eigen::Matrix3f R = at.T.rotation_matrix().cast<float>();
   const Eigen::Vector3f t = at.T.translation().cast<float>();
   const auto fx = static_cast<float>(camera.fx);
@@ -64,6 +67,7 @@ Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, c
     float target_squares = 0.0F;
     float host_sum = 0.0F;
     float host_squares = 0.0F;
+    float products = 0.0F;
     const std::size_t end = std::min(points.size(), begin + block);
     for (std::size_t k = begin; k < end; ++k) {
       const ReferencePoint& p = points[k];
@@ -89,7 +93,14 @@ Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, c
       target_squares += value * value;
       host_sum += p.intensity;
       host_squares += p.intensity * p.intensity;
-      const float r = value - gain * p.intensity - offset;
+      products += value * p.intensity;
+      const float expected = gain * p.intensity + offset;
+      if (value >= saturated && expected >= value) {
+        // Clipped as it must be: it agrees, and says nothing more.
+        ++sums.inliers;
+        continue;
+      }
+      const float r = value - expected;
       const float size = std::abs(r);
       if (!(size < cutoff)) {
         cost += p.weight * outlier_cost;
@@ -114,6 +125,7 @@ Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, c
     sums.target_squares += target_squares;
     sums.host_sum += host_sum;
     sums.host_squares += host_squares;
+    sums.products += products;
   }
   // The template's derivatives are those of I_host; the residual holds e^a I_host.
   Vector8d scale = Vector8d::Constant(gain);
@@ -128,6 +140,14 @@ double contrast_of(const Sums& s, double gain) {
   const double target = std::max(0.0, s.target_squares / n - (s.target_sum / n) * (s.target_sum / n));
   const double host = std::max(0.0, s.host_squares / n - (s.host_sum / n) * (s.host_sum / n));
   return std::sqrt(target / std::max(1e-12, gain * gain * host));
+}
+
+double correlation_of(const Sums& s) {
+  const double n = std::max(1, s.in_view);
+  const double target = s.target_squares / n - (s.target_sum / n) * (s.target_sum / n);
+  const double host = s.host_squares / n - (s.host_sum / n) * (s.host_sum / n);
+  const double together = s.products / n - (s.target_sum / n) * (s.host_sum / n);
+  return target > 1e-9 && host > 1e-9 ? together / std::sqrt(target * host) : 0.0;
 }
 
 }  // namespace
@@ -233,6 +253,7 @@ Alignment Tracker::align(const TrackingReference& reference, const FramePyramid&
     result.inlier_share = static_cast<double>(sums.inliers) / std::max(1, sums.in_view);
     result.coverage = static_cast<double>(sums.in_view) / static_cast<double>(points.size());
     result.contrast = contrast_of(sums, std::exp(estimate.brightness.a));
+    result.correlation = correlation_of(sums);
     // Brightness is a nuisance: its share of the information is taken off (Schur complement).
     Matrix8d H = sums.H;
     H.diagonal() += prior;

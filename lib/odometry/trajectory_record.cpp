@@ -10,7 +10,7 @@ void TrajectoryRecord::add_frame(double time, int keyframe, const SE3& T_keyfram
   frames_.push_back({time, keyframe, T_keyframe_camera, found_again});
 }
 
-int TrajectoryRecord::add_keyframe(double time, const SE3& T_world_camera) {
+int TrajectoryRecord::add_keyframe(double time, const SE3& T_world_camera, bool found_again) {
   const int id = static_cast<int>(keyframes_.size());
   Keyframe keyframe{time, T_world_camera, -1, {}};
   // The frame's own record moves over to its keyframe: its pose is the keyframe's from now on. It is the newest, or a
@@ -25,7 +25,7 @@ int TrajectoryRecord::add_keyframe(double time, const SE3& T_world_camera) {
         *later = {later->time, id, T_keyframe_previous * later->T_keyframe_camera};
       }
     }
-    bool lost_between = at->found_again;
+    bool lost_between = found_again || at->found_again;
     for (auto earlier = at; !lost_between && earlier != frames_.begin(); --earlier) {
       if (earlier->time <= keyframes_[static_cast<std::size_t>(previous)].time) break;
       lost_between = earlier->found_again;
@@ -34,9 +34,9 @@ int TrajectoryRecord::add_keyframe(double time, const SE3& T_world_camera) {
       keyframe.previous = previous;
       keyframe.T_previous_camera = at->T_keyframe_camera;
     }
-    *at = {time, id, SE3(), at->found_again};
+    *at = {time, id, SE3(), found_again || at->found_again};
   } else {
-    frames_.insert(at, {time, id, SE3(), false});
+    frames_.insert(at, {time, id, SE3(), found_again});
   }
   keyframes_.push_back(keyframe);
   return id;

@@ -18,10 +18,10 @@ class TrajectoryRecord {
 
   /// A frame has become the next keyframe, with T_world_camera as first estimate. If the frame was added before, its
   /// place against its own keyframe is kept as the far end of that keyframe's frames, unless the camera was lost in
-  /// between. Frames that came after it and
-  /// were tracked against the same keyframe as it was are the new keyframe's from now on, where they stood relative to
-  /// it. Returns the keyframe's number.
-  int add_keyframe(double time, const SE3& T_world_camera);
+  /// between or found_again says that it was found anew. Frames that came after it and were tracked against the same
+  /// keyframe as it was are the new keyframe's from now on, where they stood relative to it. Returns the keyframe's
+  /// number.
+  int add_keyframe(double time, const SE3& T_world_camera, bool found_again = false);
 
   void move_keyframe(int keyframe, const SE3& T_world_camera);
 

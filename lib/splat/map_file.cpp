@@ -104,6 +104,20 @@ void write_splat(const std::string& path, const Gaussians& gaussians) {
   write_file_atomically(path, splat_bytes(gaussians));
 }
 
+/// What the header's comments say; none if the file is no PLY or cannot be read.
+std::vector<std::string> header_notes(const std::string& path) {
+  constexpr int most_lines = 10000;  // of a header; a file that is no PLY need not end its lines
+  const std::string comment = "comment ";
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::string> notes;
+  std::string line;
+  for (int i = 0; i < most_lines && std::getline(file, line) && line != "end_header"; ++i) {
+    if (i == 0 && !line.starts_with("ply")) break;
+    if (line.starts_with(comment)) notes.push_back(line.substr(comment.size()));
+  }
+  return notes;
+}
+
 }  // namespace
 
 bool is_map_file(const std::string& path) {
@@ -130,17 +144,18 @@ Gaussians parse_map(const std::string& name, const std::string& bytes) {
 }
 
 SigmaModel read_sigma_model(const std::string& path) {
-  constexpr int most_lines = 10000;  // of a header; a file that is no PLY need not end its lines
-  const std::string comment = "comment ";
-  std::ifstream file(path, std::ios::binary);
-  std::vector<std::string> notes;
-  std::string line;
-  for (int i = 0; i < most_lines && std::getline(file, line) && line != "end_header"; ++i) {
-    if (i == 0 && !line.starts_with("ply")) break;
-    if (line.starts_with(comment)) notes.push_back(line.substr(comment.size()));
-  }
+  const std::vector<std::string> notes = header_notes(path);
   try {
     return SigmaModel::from_lines(notes);
+  } catch (const InputError& e) {
+    throw InputError(path, "header", e.what());
+  }
+}
+
+std::vector<SE3> read_map_places(const std::string& path) {
+  const std::vector<std::string> notes = header_notes(path);
+  try {
+    return places_from_lines(notes);
   } catch (const InputError& e) {
     throw InputError(path, "header", e.what());
   }

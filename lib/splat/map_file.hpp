@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "odosplat/splat/gaussians.hpp"
+#include "odosplat/splat/map_places.hpp"
 #include "odosplat/splat/sigma_model.hpp"
 
 namespace odosplat {
@@ -29,6 +30,10 @@ bool is_map_file(const std::string& path);
 /// How sure the map's depth is, from the header's comments "sigma_..." that training writes (SigmaModel::to_lines); the
 /// defaults where there are none (maps trained elsewhere, other formats). InputError if they are no numbers.
 SigmaModel read_sigma_model(const std::string& path);
+
+/// Where the map's training images were taken, thinned, from the header's comments "training_view ..." (place_lines); none where
+/// there are no such comments. InputError if they are broken.
+std::vector<SE3> read_map_places(const std::string& path);
 
 /// Writes a .splat file if the path ends so (degree 0 only, quantised; a warning says what is lost, `notes` have no
 /// place), else that PLY layout, binary little endian, floats, with nx ny nz = direction of the shortest axis (unit

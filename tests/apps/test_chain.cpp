@@ -125,6 +125,32 @@ TEST_F(Chain, UsesNoTruthButTheFirstPose) {
   EXPECT_EQ(read_text(a + "/trajectory_live.txt"), read_text(b + "/trajectory_live.txt"));
 }
 
+TEST_F(Chain, StartsAnywhere) {
+  const std::string run = track(sequence_, "auto", {"--start", "auto"});
+  EXPECT_LT(ate(run), 0.01);
+  EXPECT_THAT(read_text(run + "/status.csv"), HasSubstr(",relocalised,1,"));
+  EXPECT_EQ(nlohmann::json::parse(read_text(run + "/report.json"))["relocalisations"], 1);
+  // Poses for a map that does not remember its own.
+  const std::string foreign = scratch_ / "foreign.ply";
+  must_run({"convert", map_, foreign});
+  EXPECT_THAT(read_text(foreign), testing::Not(HasSubstr("training_view")));
+  must_run({"track", sequence_, "--map", foreign, "--start", "auto", "--places", sequence_ + "/groundtruth.txt",
+            "--out", scratch_ / "foreign"});
+  EXPECT_LT(ate(scratch_ / "foreign"), 0.01);
+}
+
+TEST_F(Chain, LooksUpSingleImages) {
+  const std::string json = scratch_ / "found.json";
+  const RunResult result =
+      must_run({"relocalise", sequence_, "--map", map_, "--views", "6", "--skip-every", "5", "--json", json});
+  EXPECT_THAT(result.out, HasSubstr("6 views: 6 found"));
+  const auto report = nlohmann::json::parse(read_text(json));
+  EXPECT_EQ(report["within_2cm_1deg"], 6);
+  EXPECT_EQ(report["beyond_10cm"], 0);
+  EXPECT_EQ(report["rows"].size(), 6U);
+  for (const auto& row : report["rows"]) EXPECT_NE(row["frame"].get<int>() % 5, 0);
+}
+
 TEST_F(Chain, ThreadsChangeNoBit) {
   train(scratch_ / "map1.ply", "1");
   EXPECT_EQ(read_text(map_), read_text(scratch_ / "map1.ply"));

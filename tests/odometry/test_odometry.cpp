@@ -9,6 +9,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/odometry/odometry.hpp"
+#include "odosplat/odometry/relocalizer.hpp"
 
 namespace odosplat {
 namespace {
@@ -158,6 +159,58 @@ TEST_F(OdometryTest, BlackFramesAreLostAndTheRunGoesOn) {
   EXPECT_EQ(run.statistics.relocalisations, 1);
   EXPECT_EQ(run.trajectory.size(), 75U);
   EXPECT_LT(ate(run), 0.0015);
+}
+
+/// Every 30th pose of the path, for a relocaliser to look from.
+std::vector<SE3> path_places() {
+  std::vector<SE3> places;
+  for (int k = 0; k < 240; k += 30) places.push_back(test::room_path(k));
+  return places;
+}
+
+TEST_F(OdometryTest, StartsWithoutAPose) {
+  test::BoxRoom map;
+  Relocalizer relocalizer(camera_, map, path_places());
+  Odometry odometry(camera_, map, {}, relocalizer);
+  EXPECT_EQ(odometry.track(GrayImage(camera_.height, camera_.width, 0.2F), 0.0).status, TrackStatus::lost);
+  for (int k = 40; k < 60; ++k) {
+    const TrackResult result = odometry.track(world_.gray(camera_, test::room_path(k)), k / 30.0);
+    EXPECT_EQ(result.status, k == 40 ? TrackStatus::relocalised : TrackStatus::ok) << k;
+    EXPECT_LT((test::room_path(k).inverse() * result.T_world_camera).translation().norm(), 0.005) << k;
+  }
+  EXPECT_EQ(odometry.statistics().relocalisations, 1);
+  EXPECT_EQ(odometry.trajectory().size(), 20U);
+}
+
+TEST_F(OdometryTest, AKidnappedCameraIsFoundAtOnce) {
+  for (const int jump : {45, 60, 105, 150, 180}) {
+    SCOPED_TRACE(jump);
+    // Half way it is elsewhere, where the walls' waves fit so well that 8 in 10 points agree.
+    const auto path = [jump](int k) { return test::room_path(k < 15 ? k : k + jump); };
+    test::BoxRoom map;
+    Relocalizer relocalizer(camera_, map, path_places());
+    Odometry odometry(camera_, map, {}, path(0));
+    odometry.set_relocalizer(&relocalizer);
+    for (int k = 0; k < 25; ++k) {
+      const TrackResult result = odometry.track(world_.gray(camera_, path(k)), k / 30.0);
+      EXPECT_EQ(result.status, k == 15 ? TrackStatus::relocalised : TrackStatus::ok) << k;
+      EXPECT_LT((path(k).inverse() * result.T_world_camera).translation().norm(), 0.005) << k;
+    }
+  }
+}
+
+TEST_F(OdometryTest, AnotherRoomIsNotFoundInTheMap) {
+  test::BoxRoom other;
+  other.detail = 1.7;
+  test::BoxRoom map;
+  Relocalizer relocalizer(camera_, map, path_places());
+  Odometry odometry(camera_, map, {}, test::room_path(0));
+  odometry.set_relocalizer(&relocalizer);
+  for (int k = 0; k < 40; ++k) {
+    const bool elsewhere = k >= 15 && k < 25;
+    const TrackResult result = odometry.track((elsewhere ? other : world_).gray(camera_, test::room_path(k)), k / 30.0);
+    EXPECT_EQ(result.status == TrackStatus::lost, elsewhere) << k;
+  }
 }
 
 TEST_F(OdometryTest, AnEmptyMapLosesEveryFrameQuietly) {

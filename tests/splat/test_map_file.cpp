@@ -70,6 +70,48 @@ TEST_F(MapFile, ReadsBackTheSameBitsForEveryDegree) {
   }
 }
 
+TEST_F(MapFile, RemembersWhereItWasSeenFrom) {
+  std::vector<SE3> views;
+  for (int k = 0; k < 30; ++k) views.emplace_back(so3_exp({0.0, 0.1 * k, 0.02}), Eigen::Vector3d(0.01 * k, -1.5, 2.0));
+  std::vector<std::string> notes = place_lines(views);
+  notes.emplace_back("seed 42");
+  write_map(path("map.ply"), random_gaussians(3, 0), notes);
+  const std::vector<SE3> back = read_map_places(path("map.ply"));
+  ASSERT_EQ(back.size(), views.size());
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    EXPECT_LT((back[k].inverse() * views[k]).translation().norm(), 1e-4);
+    EXPECT_LT((back[k].inverse() * views[k]).angle(), 1e-5);
+  }
+  EXPECT_EQ(read_map(path("map.ply")).size(), 3U);
+  write_map(path("plain.ply"), random_gaussians(3, 0));
+  EXPECT_TRUE(read_map_places(path("plain.ply")).empty());
+  EXPECT_TRUE(read_map_places(path("missing.ply")).empty());
+}
+
+TEST_F(MapFile, BrokenViewsAreNamed) {
+  for (const char* note : {"training_view 1 2 3", "training_view 0 0 nan 0 0 0 1", "training_view 0 0 0 0 0 0 0"}) {
+    write_map(path("map.ply"), random_gaussians(1, 0), {note});
+    try {
+      read_map_places(path("map.ply"));
+      ADD_FAILURE() << note;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("map.ply: header: training_view")) << note;
+    }
+  }
+}
+
+TEST_F(MapFile, PlacesAreThinned) {
+  std::vector<SE3> views;
+  for (int k = 0; k < 100; ++k) views.emplace_back(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.01 * k, 0.0, 0.0));
+  EXPECT_EQ(thinned_places(views, {0.095, 0.2, 1000}).size(), 10U);
+  EXPECT_LE(thinned_places(views, {0.005, 0.2, 7}).size(), 7U);
+  // As many directions from one spot are as many places.
+  for (int k = 0; k < 100; ++k)
+    views[static_cast<std::size_t>(k)] = SE3(so3_exp({0.0, 0.01 * k, 0.0}), Eigen::Vector3d::Zero());
+  EXPECT_EQ(thinned_places(views, {0.1, 0.095, 1000}).size(), 10U);
+  EXPECT_TRUE(thinned_places({}).empty());
+}
+
 TEST_F(MapFile, HeaderIsThatOfPublicPrograms) {
   write_map(path("map.ply"), random_gaussians(2, 1), {"iterations 3000", "seed 42"});
   const std::string text = read_text("map.ply");
