@@ -17,9 +17,9 @@ struct PoseVerifierOptions {
   double min_texture = 4.0 / 255;  // [grey] spread within a square, of image or map, below which it says nothing
   int min_blocks = 12;             // squares that say something
   double min_coverage = 0.6;       // share of the image where the map has depth
-  // 0..1, see PoseEvidence::score. Right poses reach 0.90 and more in a good map (36 dB), 0.35 to 0.93 in a coarse one of
-  // blurred images (20 dB). The best poses found for images of other rooms reach 0.15; for images of which half of the
-  // map was deleted, 0.71.
+  // 0..1, see PoseEvidence::score. Right poses reach 0.90 and more in a good map (36 dB), 0.35 to 0.93 in a coarse one
+  // of blurred images (20 dB). The best poses found for images of other rooms reach 0.15; for images of which half of
+  // the map was deleted, 0.71.
   double min_score = 0.75;
 
   /// Throws InputError naming the field.
