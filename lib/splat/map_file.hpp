@@ -31,8 +31,8 @@ bool is_map_file(const std::string& path);
 /// defaults where there are none (maps trained elsewhere, other formats). InputError if they are no numbers.
 SigmaModel read_sigma_model(const std::string& path);
 
-/// Where the map's training images were taken, thinned, from the header's comments "training_view ..." (place_lines); none where
-/// there are no such comments. InputError if they are broken.
+/// Where the map's training images were taken, thinned, from the header's comments "training_view ..." (place_lines);
+/// none where there are no such comments. InputError if they are broken.
 std::vector<SE3> read_map_places(const std::string& path);
 
 /// Writes a .splat file if the path ends so (degree 0 only, quantised; a warning says what is lost, `notes` have no
