@@ -20,7 +20,7 @@ double visible_share(const Keyframe& host, const Keyframe& other, const Camera& 
   int seen = 0;
   for (const WindowPoint& point : host.points) {
     const Eigen::Vector3d ray = camera.ray(point.u, point.v);
-    const double q = plane_in_camera(point.plane_world, host.T_world_camera).dot(ray);
+    const double q = inverse_depth(point, camera, host.T_world_camera);
     if (!(q > 0.0)) continue;
     const Eigen::Vector3d p = T_other_world * (host.T_world_camera * (ray / q));
     if (!(p.z() > 0.0)) continue;
@@ -35,6 +35,17 @@ double visible_share(const Keyframe& host, const Keyframe& other, const Camera& 
 void WindowOptions::check() const {
   require(max_keyframes >= 3 && max_keyframes <= 20, "window.max_keyframes", "3 to 20");
   require(min_visible >= 0.0 && min_visible < 1.0, "window.min_visible", "in [0, 1)");
+}
+
+void translate(Window& window, const Eigen::Vector3d& by) {
+  const auto moved = [&by](const SE3& T) { return SE3(T.rotation(), T.translation() + by); };
+  for (const auto& keyframe : window.keyframes) {
+    keyframe->T_world_camera = moved(keyframe->T_world_camera);
+    keyframe->anchor.T_world_view = moved(keyframe->anchor.T_world_view);
+    for (WindowPoint& point : keyframe->points) point.plane_world.D += point.plane_world.N.dot(by);
+    for (WindowPoint& point : keyframe->anchor.points) point.plane_world.D += point.plane_world.N.dot(by);
+  }
+  translate(window.prior, by);
 }
 
 int keyframe_to_drop(const Window& window, const Camera& camera, const WindowOptions& options) {
