@@ -62,7 +62,7 @@ class Recorder {
       while (times_[k] != pose.time) ++k;
       pose.time_text = stamps_[k];
     }
-    const OdometryStatistics& s = odometry.statistics();
+    const OdometryStatistics s = odometry.statistics();
     o.frames = s.frames;
     o.posed = s.posed;
     o.lost = s.lost;
@@ -77,7 +77,7 @@ class Recorder {
 
   void write(const TrackJob& job, const TrackOutcome& o, const OdometryStatistics& s, const std::string& device) const {
     nlohmann::ordered_json stages = nlohmann::ordered_json::object();
-    for (const OdometryStatistics::Stage& stage : s.stages) stages[stage.name] = stage.milliseconds;
+    for (const StageTime& stage : s.stages) stages[stage.name] = stage.milliseconds;
     const nlohmann::ordered_json report{{"method", job.method},
                                         {"frames", o.frames},
                                         {"posed", o.posed},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "odosplat/core/se3.hpp"
@@ -67,7 +68,7 @@ struct Keyframe {
   GradientImage gradient;                  // full size
   std::vector<WindowPoint> points;
   MapAnchor anchor;
-  TrackingReference reference;  // this image with the map's depth, for tracking later frames
+  std::shared_ptr<const TrackingReference> reference;  // this image with the map's depth, for tracking later frames
 };
 
 }  // namespace odosplat

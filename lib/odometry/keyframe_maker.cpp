@@ -48,12 +48,10 @@ MadeKeyframe KeyframeMaker::make(const FramePyramid& pyramid, const ViewImages& 
   keyframe->T_world_camera = T_world_camera;
   keyframe->brightness = brightness;
   keyframe->gradient = gradients.front();
-  keyframe->reference =
+  TrackingReference reference =
       build_reference(pyramid, gradients, view, reference_selector_, options_.reference, options_.plane);
-  if (keyframe->reference.empty() ||
-      static_cast<int>(keyframe->reference.levels.front().size()) < options_.min_points) {
-    return made;
-  }
+  if (reference.empty() || static_cast<int>(reference.levels.front().size()) < options_.min_points) return made;
+  keyframe->reference = std::make_shared<TrackingReference>(std::move(reference));
   keyframe->points =
       make_window_points(pyramid.cameras.front(), gradients, view, T_world_camera, options_.window_points.points,
                          window_selector_, options_.window_points, options_.plane);

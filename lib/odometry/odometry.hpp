@@ -7,28 +7,11 @@
 
 #include "odosplat/core/trajectory.hpp"
 #include "odosplat/map/map_view.hpp"
-#include "odosplat/odometry/keyframe_maker.hpp"
-#include "odosplat/odometry/keyframe_policy.hpp"
-#include "odosplat/odometry/motion_model.hpp"
-#include "odosplat/odometry/tracker.hpp"
-#include "odosplat/odometry/window.hpp"
-#include "odosplat/odometry/window_optimizer.hpp"
+#include "odosplat/odometry/frame_tracker.hpp"
+#include "odosplat/odometry/keyframe_backend.hpp"
+#include "odosplat/odometry/trajectory_record.hpp"
 
 namespace odosplat {
-
-/// When an alignment is believed.
-struct AcceptOptions {
-  double min_inliers = 0.5;    // share of points in view that agree
-  double min_coverage = 0.25;  // share of the reference's points in view
-  double min_contrast = 0.5;   // the image's spread at the points over the expected one: a blank image has none
-  double max_contrast = 2.0;
-  double retrack = 1.5;            // residual over the last frame's beyond which other guesses are tried
-  double retrack_outliers = 0.05;  // growth of the share of outliers beyond which they are tried, too
-  double found_inliers = 0.7;      // as min_inliers, for a camera that was lost
-  double found_coverage = 0.35;    // as min_coverage, for a camera that was lost
-
-  void check() const;
-};
 
 struct OdometryOptions {
   TrackerOptions tracker;
@@ -63,12 +46,7 @@ struct TrackResult {
 
 /// Sums over all images so far.
 struct OdometryStatistics {
-  struct Stage {
-    std::string name;
-    double milliseconds = 0.0;
-    long calls = 0;
-  };
-  std::vector<Stage> stages;  // pyramid, track, render, keyframe, optimise
+  std::vector<StageTime> stages;  // pyramid, track, render, keyframe, optimise
   int frames = 0;
   int posed = 0;
   int lost = 0;
@@ -93,54 +71,24 @@ class Odometry {
   /// Finds the camera of the next image (the camera's size, grey 0..1, else InputError) taken at `time` [s].
   TrackResult track(const GrayImage& image, double time);
 
-  /// Final estimate: every posed frame's pose relative to its keyframe, composed with that keyframe's latest pose.
-  /// Where the next keyframe's final pose is not where tracking had put it, the difference is spread over the frames
-  /// between the two, so that the path has no step at keyframes. Lost frames are absent.
-  Trajectory trajectory() const;
+  /// Final estimate of every posed frame (TrajectoryRecord::compose). Lost frames are absent.
+  Trajectory trajectory() const { return record_.compose(); }
 
-  const OdometryStatistics& statistics() const { return statistics_; }
-  const Window& window() const { return window_; }
+  OdometryStatistics statistics() const;
+  const Window& window() const { return backend_.window(); }
 
  private:
-  struct FrameRecord {
-    double time;
-    int keyframe;
-    SE3 T_keyframe_camera;
-  };
-  /// A keyframe's part in trajectory(), kept when it has left the window.
-  struct KeyframeRecord {
-    double time;
-    SE3 T_world_camera;     // latest estimate
-    int previous = -1;      // keyframe it was tracked against; -1: none
-    SE3 T_previous_camera;  // where tracking had put it
-  };
-
-  Alignment track_against_newest(const FramePyramid& pyramid, double time);
-  Alignment search_window(const FramePyramid& pyramid);
-  bool as_good_as_last(const Alignment& alignment) const;
-  bool believed(const Alignment& alignment, bool was_lost) const;
-  bool add_keyframe(const FramePyramid& pyramid, double time, const SE3& T_world_camera, const Brightness& brightness,
+  void add_keyframe(const FramePyramid& pyramid, double time, const SE3& T_world_camera, const Brightness& brightness,
                     TrackResult& result);
-  void optimise();
 
   Camera camera_;
-  MapView& map_;
   OdometryOptions options_;
   SE3 T_world_camera_start_;
-  Tracker tracker_;
-  KeyframeMaker maker_;
-  WindowOptimizer optimizer_;
-  Window window_;
-  std::shared_ptr<Keyframe> reference_;  // tracked against: the newest keyframe, or after a loss another of the window
-  std::vector<KeyframeRecord> keyframe_records_;  // by keyframe id
-  std::vector<FrameRecord> records_;              // posed frames
-  MotionHistory history_;
-  Brightness relative_brightness_;  // of the last frame against reference_
-  double first_rmse_ = 0.0;         // of the first frame after the keyframe
-  double last_rmse_ = 0.0;
-  double last_inlier_share_ = 1.0;
-  bool lost_ = false;
-  OdometryStatistics statistics_;
+  FrameTracker front_;
+  KeyframeBackend backend_;
+  TrajectoryRecord record_;
+  std::vector<StageTime> stages_{{"pyramid"}, {"track"}};
+  OdometryStatistics counts_;  // without stages
 };
 
 }  // namespace odosplat

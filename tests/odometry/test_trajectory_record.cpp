@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <gtest/gtest.h>
+
+#include "odosplat/odometry/trajectory_record.hpp"
+
+namespace odosplat {
+namespace {
+
+SE3 at(double x) { return {Eigen::Quaterniond::Identity(), Eigen::Vector3d(x, 0, 0)}; }
+
+TEST(TrajectoryRecord, FramesMoveWithTheirKeyframe) {
+  TrajectoryRecord record;
+  EXPECT_EQ(record.add_keyframe(0.0, at(1.0)), 0);
+  record.add_frame(0.1, 0, at(0.1));
+  record.move_keyframe(0, at(2.0));
+  const Trajectory trajectory = record.compose();
+  ASSERT_EQ(trajectory.size(), 2U);
+  EXPECT_DOUBLE_EQ(trajectory[0].T_world_camera.translation().x(), 2.0);
+  EXPECT_DOUBLE_EQ(trajectory[1].T_world_camera.translation().x(), 2.1);
+}
+
+TEST(TrajectoryRecord, ACorrectionIsSpreadOverTheFramesBetweenKeyframes) {
+  TrajectoryRecord record;
+  record.add_keyframe(0.0, at(0.0));
+  for (int k = 1; k <= 4; ++k) record.add_frame(0.1 * k, 0, at(0.1 * k));
+  EXPECT_EQ(record.add_keyframe(0.4, at(0.6)), 1);  // tracking had put it at 0.4
+  const Trajectory trajectory = record.compose();
+  ASSERT_EQ(trajectory.size(), 5U);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_NEAR(trajectory[k].T_world_camera.translation().x(), 0.15 * static_cast<double>(k), 1e-12);
+  }
+}
+
+TEST(TrajectoryRecord, AKeyframeMayComeAFewFramesLate) {
+  TrajectoryRecord record;
+  record.add_keyframe(0.0, at(0.0));
+  for (int k = 1; k <= 5; ++k) record.add_frame(0.1 * k, 0, at(0.1 * k));
+  EXPECT_EQ(record.add_keyframe(0.2, at(0.4)), 1);  // frames of 0.3 and later were still tracked against keyframe 0
+  const Trajectory trajectory = record.compose();
+  ASSERT_EQ(trajectory.size(), 6U);
+  for (std::size_t k = 1; k < 6; ++k) EXPECT_GT(trajectory[k].time, trajectory[k - 1].time);
+  EXPECT_NEAR(trajectory[1].T_world_camera.translation().x(), 0.2, 1e-12);
+  EXPECT_NEAR(trajectory[2].T_world_camera.translation().x(), 0.4, 1e-12);
+}
+
+}  // namespace
+}  // namespace odosplat
