@@ -2,26 +2,21 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
 #include "odosplat/core/se3.hpp"
 #include "odosplat/odometry/frame.hpp"
+#include "odosplat/odometry/immature_point.hpp"
 #include "odosplat/odometry/map_plane.hpp"
+#include "odosplat/odometry/residual_pattern.hpp"
 #include "odosplat/odometry/tracking_reference.hpp"
 
 namespace odosplat {
 
-/// DSO's residual pattern: offsets [px] around a point; 8 pixels, so that two SIMD registers hold them.
-inline constexpr int pattern_size = 8;
-inline constexpr std::array<std::array<int, 2>, pattern_size> pattern = {
-    {{0, -2}, {-1, -1}, {1, -1}, {-2, 0}, {0, 0}, {2, 0}, {-1, 1}, {0, 2}}};
-
 /// A point of the window's adjustment: a pixel of its host and its inverse depth, which is that of a plane where the
 /// pixel's ray meets it, plus `offset`. The plane is the map's and stays in the world, so that moving the host moves
-/// the point along it and the map's geometry observes absolute pose (Ye, Huang, Liu 2020); or it moves along with the
-/// host
+/// the point along it and the map's geometry observes absolute pose (Ye, Huang, Liu 2020); or it moves with the host
 /// (`plane_in_world` false). The offset is 0, or an unknown of the adjustment (`estimated`), with a prior around 0 or
 /// without: points that the map does not show, and maps that are not believed to the last millimetre.
 struct WindowPoint {
@@ -67,6 +62,7 @@ struct Keyframe {
   Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera
   GradientImage gradient;                  // full size
   std::vector<WindowPoint> points;
+  std::vector<ImmaturePoint> immature;
   MapAnchor anchor;
   std::shared_ptr<const TrackingReference> reference;  // this image with the map's depth, for tracking later frames
 };

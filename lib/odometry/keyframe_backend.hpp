@@ -6,6 +6,8 @@
 
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/odometry/keyframe_maker.hpp"
+#include "odosplat/odometry/marginalisation.hpp"
+#include "odosplat/odometry/point_activation.hpp"
 #include "odosplat/odometry/reference_frame.hpp"
 #include "odosplat/odometry/stage_times.hpp"
 #include "odosplat/odometry/window.hpp"
@@ -17,6 +19,8 @@ struct KeyframeBackendOptions {
   KeyframeMakerOptions keyframe;
   WindowOptions window;
   WindowOptimizerOptions optimizer;
+  MarginalisationOptions marginalisation;
+  ActivationOptions activation;
 
   void check() const;
 };
@@ -33,14 +37,18 @@ struct KeyframeRequest {
 
 /// What came of it.
 struct KeyframeOutcome {
-  bool made = false;  // false: the map shows too little there; the window is as it was
+  bool made = false;  // false: too little depth there; the window is as it was
   bool anchored = false;
-  double map_share = 0.0;              // share of the image where the map has depth
+  bool in_map = false;     // the map alone gives depth enough; else the camera goes by what it has seen on its way
+  double map_share = 0.0;  // share of the image where the map has depth
   std::vector<ReferenceFrame> window;  // all keyframes as they are now, oldest first
 };
 
 /// The odometry's back end: renders the map where a frame wants to become a keyframe, makes the keyframe, anchors it,
-/// and adjusts the window of keyframes. Knows nothing of the frames between. Not thread safe; uses parallel_for inside.
+/// and adjusts the window of keyframes. Pixels that the map does not show become points by motion: every frame between
+/// narrows their depth (trace), and keyframes outside the map live on these alone. Once the camera has been outside,
+/// the map's depth is believed again from the first keyframe on that its colours hold in place; the keyframes made
+/// outside are moved along then. Not thread safe; uses parallel_for inside.
 class KeyframeBackend {
  public:
   /// map and tracker must outlive this.
@@ -48,11 +56,20 @@ class KeyframeBackend {
 
   KeyframeOutcome add(const KeyframeRequest& request);
 
+  /// A tracked frame, keyframe or not; before add, if it is to become one. Costs nothing where the map shows
+  /// everything.
+  void trace(const FramePyramid& pyramid, const SE3& T_world_camera, const Brightness& brightness);
+
   const Window& window() const { return window_; }
-  /// render, keyframe, optimise.
+  /// render, keyframe, optimise, trace.
   const std::vector<StageTime>& stages() const { return stages_; }
 
  private:
+  MadeKeyframe make(const KeyframeRequest& request, double& corrected);
+  void make_room();
+  /// Moves the keyframes that only their own motion has placed; far: what the map holds is elsewhere, and is dropped.
+  void come_back(const SE3& T_correction, bool far);
+  std::vector<ProjectedPoint> points_seen_from(const SE3& T_world_camera) const;
   std::vector<ReferenceFrame> references() const;
 
   Camera camera_;
@@ -62,7 +79,8 @@ class KeyframeBackend {
   KeyframeMaker maker_;
   WindowOptimizer optimizer_;
   Window window_;
-  std::vector<StageTime> stages_{{"render"}, {"keyframe"}, {"optimise"}};
+  bool outside_ = false;  // the map has been left and has not been found again
+  std::vector<StageTime> stages_{{"render"}, {"keyframe"}, {"optimise"}, {"trace"}};
 };
 
 }  // namespace odosplat

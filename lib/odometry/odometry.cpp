@@ -17,6 +17,8 @@ void OdometryOptions::check() const {
   policy.check();
   window.check();
   optimizer.check();
+  marginalisation.check();
+  activation.check();
   accept.check();
   require(covariance_factor > 0.0, "covariance_factor", "positive");
 }
@@ -38,7 +40,8 @@ Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& op
       options_(options),
       T_world_camera_start_(T_world_camera_start),
       front_({options.tracker, options.policy, options.accept}),
-      backend_(camera, map, front_.aligner(), {options.keyframe, options.window, options.optimizer}) {
+      backend_(camera, map, front_.aligner(),
+               {options.keyframe, options.window, options.optimizer, options.marginalisation, options.activation}) {
   camera_.check();
   options_.check();
   require(T_world_camera_start.is_finite(), "start pose", "finite");
@@ -75,9 +78,12 @@ TrackResult Odometry::track(const GrayImage& image, double time) {
       result.T_world_camera = frame.T_world_camera;
       result.covariance = options_.covariance_factor * frame.covariance;
       record_.add_frame(time, frame.keyframe, frame.T_keyframe_camera);
+      backend_.trace(pyramid, frame.T_world_camera, frame.brightness);
       if (frame.keyframe_due) add_keyframe(pyramid, time, frame.T_world_camera, frame.brightness, result);
     }
   }
+  result.map_share = map_share_;
+  result.in_map = in_map_ && result.status != TrackStatus::lost;
   if (result.status == TrackStatus::lost) {
     front_.lose();
     ++counts_.lost;
@@ -94,8 +100,9 @@ void Odometry::add_keyframe(const FramePyramid& pyramid, double time, const SE3&
                             const Brightness& brightness, TrackResult& result) {
   const KeyframeOutcome outcome =
       backend_.add({&pyramid, counts_.keyframes, counts_.frames - 1, time, T_world_camera, brightness});
-  result.map_share = outcome.map_share;
+  map_share_ = outcome.map_share;
   if (!outcome.made) return;
+  in_map_ = outcome.in_map;
   const ReferenceFrame& keyframe = outcome.window.back();
   record_.add_keyframe(time, keyframe.T_world_camera);
   for (const ReferenceFrame& k : outcome.window) record_.move_keyframe(k.id, k.T_world_camera);

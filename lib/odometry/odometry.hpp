@@ -19,6 +19,8 @@ struct OdometryOptions {
   KeyframePolicyOptions policy;
   WindowOptions window;
   WindowOptimizerOptions optimizer;
+  MarginalisationOptions marginalisation;
+  ActivationOptions activation;
   AcceptOptions accept;
   /// Neighbouring pixels err alike, which normal equations do not know: covariances out are theirs times this.
   double covariance_factor = 20.0;
@@ -40,13 +42,14 @@ struct TrackResult {
   double coverage = 0.0;      // share of the reference keyframe's points in view
   double rmse = 0.0;          // [grey] of the inliers
   double map_share = 0.0;     // share of the last keyframe attempt's image where the map has depth
+  bool in_map = false;        // the last keyframe has its depth from the map; false: plain odometry beyond it
   bool anchored = false;      // a keyframe that the map's colours hold in place
   double milliseconds = 0.0;
 };
 
 /// Sums over all images so far.
 struct OdometryStatistics {
-  std::vector<StageTime> stages;  // pyramid, track, render, keyframe, optimise
+  std::vector<StageTime> stages;  // pyramid, track, render, keyframe, optimise, trace
   int frames = 0;
   int posed = 0;
   int lost = 0;
@@ -59,9 +62,10 @@ struct OdometryStatistics {
 /// Source: the paper's local odometry (direct tracking against the last keyframe, sliding window of keyframes, depth of
 /// keyframe points rendered from the map); Engel et al. 2018 (DSO) for selection, residuals and keyframe rule. Differs:
 /// points keep to the map's planes when their keyframe moves, and every keyframe is also aligned with the map's
-/// rendered image, which removes drift; no intrinsics are estimated; no null space is projected out. Images must come
-/// in order of time. Never prints, reads no files. Not thread safe; uses parallel_for inside, with the same bits for
-/// any number of threads.
+/// rendered image, which removes drift; no intrinsics are estimated; no null space is projected out. Where the map
+/// shows nothing, points are found by motion and the camera goes on as in plain odometry. Images must come in order of
+/// time. Never prints, reads no files. Not thread safe; uses parallel_for inside, with the same bits for any number of
+/// threads.
 class Odometry {
  public:
   /// map must outlive this. T_world_camera_start: the camera's pose at the first image. Throws InputError on bad
@@ -89,6 +93,8 @@ class Odometry {
   TrajectoryRecord record_;
   std::vector<StageTime> stages_{{"pyramid"}, {"track"}};
   OdometryStatistics counts_;  // without stages
+  double map_share_ = 0.0;     // of the last attempt to make a keyframe
+  bool in_map_ = false;        // of the last keyframe
 };
 
 }  // namespace odosplat

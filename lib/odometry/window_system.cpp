@@ -69,7 +69,7 @@ WindowState window_state(const Window& window) {
 }
 
 WindowSystem evaluate_window(const Window& window, const WindowState& state, const Camera& camera,
-                             const PhotometricOptions& options) {
+                             const PhotometricOptions& options, int only) {
   const std::size_t n = window.keyframes.size();
   // Hosts first: rendered views behind the keyframes.
   std::vector<std::vector<HostPoint>> hosts(2 * n);
@@ -104,16 +104,17 @@ WindowSystem evaluate_window(const Window& window, const WindowState& state, con
   parallel_for(static_cast<int>(tasks.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const auto task = static_cast<std::size_t>(i);
-      if (tasks[task].points.empty()) continue;
+      const bool anchor = task >= n * (n - 1);
+      const std::size_t host = anchor ? task - n * (n - 1) : task / (n - 1);
+      const std::size_t target = anchor ? host : task % (n - 1) + (task % (n - 1) >= host ? 1 : 0);
+      const bool wanted =
+          only < 0 || host == static_cast<std::size_t>(only) || target == static_cast<std::size_t>(only);
       std::span<DepthTerms> of_pair;
-      if (task < n * (n - 1)) {
-        const std::size_t host = task / (n - 1);
-        const std::size_t target = task % (n - 1) + (task % (n - 1) >= host ? 1 : 0);
-        if (!state.offsets[host].empty()) {
-          terms[host * n + target].resize(tasks[task].points.size());
-          of_pair = terms[host * n + target];
-        }
+      if (!anchor && !state.offsets[host].empty()) {
+        terms[host * n + target].resize(tasks[task].points.size());
+        of_pair = terms[host * n + target];
       }
+      if (!wanted || tasks[task].points.empty()) continue;
       results[task] = evaluate_pair(tasks[task], options, of_pair);
     }
   });

@@ -36,9 +36,10 @@ struct WindowSystem {
 WindowState window_state(const Window& window);
 
 /// Sums the pairs of all keyframes and anchors at the state given, and the offsets' priors. Other priors are not in it.
+/// only: index of a keyframe, to leave out all pairs and anchors that it has no part in; -1: everything.
 /// Runs on several threads; sums in fixed order.
 WindowSystem evaluate_window(const Window& window, const WindowState& state, const Camera& camera,
-                             const PhotometricOptions& options);
+                             const PhotometricOptions& options, int only = -1);
 
 /// Adds the cost and derivatives of the window's marginal prior.
 void add_marginal_prior(const Window& window, const WindowState& state, WindowSystem& system);

@@ -22,7 +22,8 @@ class PhotometricPairTest : public testing::Test {
     const FramePyramid host = build_frame_pyramid(camera_, room_.gray(camera_, T_world_host_));
     const ViewImages view = room_.render(camera_, T_world_host_, {});
     PixelSelector selector({});
-    points_ = make_window_points(camera_, build_gradients(host), view, T_world_host_, 150, selector, {}, {});
+    points_ = make_window_points(camera_, build_gradients(host), view, T_world_host_, 150, selector, {}, {},
+                                 DepthUse::pose_aware);
     target_ = build_gradient(room_.gray(camera_, T_world_target_));
   }
 
@@ -104,6 +105,75 @@ TEST_F(PhotometricPairTest, GradientMatchesCentralDifferencesWithPlanesInTheWorl
 TEST_F(PhotometricPairTest, GradientMatchesCentralDifferencesWithPlanesOfTheHost) {
   fix_planes_to_host();
   check_gradient({});
+}
+
+TEST_F(PhotometricPairTest, DepthTermsMatchCentralDifferences) {
+  // Offsets beside the truth, for planes that stay in the world and planes that do not.
+  for (const bool in_world : {true, false}) {
+    PhotometricOptions options;
+    options.huber = 1.0;
+    options.outlier = 1.0;
+    for (WindowPoint& point : points_) {
+      point.plane_in_world = in_world;
+      point.estimated = true;
+      point.offset = 0.01;
+    }
+    std::vector<DepthTerms> terms(points_.size());
+    const PairSystem system = evaluate(pair(), options, terms);
+    ASSERT_GT(system.inliers, 80);
+    double difference = 0.0;
+    double size = 0.0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (!terms[i].inlier) continue;
+      const Eigen::MatrixXd J = test::central_differences(
+          [&](const Eigen::VectorXd& x) {
+            points_[i].offset = 0.01 + x[0];
+            const double cost = evaluate(pair(), options).cost;
+            points_[i].offset = 0.01;
+            return Eigen::VectorXd::Constant(1, cost);
+          },
+          Eigen::VectorXd::Constant(1, 2e-3));
+      difference += std::pow(terms[i].g - J(0, 0), 2);
+      size += J(0, 0) * J(0, 0);
+      EXPECT_GT(terms[i].H, 0.0);
+    }
+    EXPECT_LT(std::sqrt(difference), 0.05 * std::sqrt(size));
+    // Coupling with the keyframes: how the offsets' gradients change as these move.
+    Eigen::VectorXd step(16);
+    step << 1e-4, 1e-4, 1e-4, 5e-5, 5e-5, 5e-5, 1e-3, 1e-3, 1e-4, 1e-4, 1e-4, 5e-5, 5e-5, 5e-5, 1e-3, 1e-3;
+    // All points as one, so that noise of single pixels is averaged: the sum of all offsets' coupling.
+    Eigen::VectorXd coupling = Eigen::VectorXd::Zero(16);
+    for (const DepthTerms& t : terms) coupling += t.cross.cast<double>();
+    const Eigen::MatrixXd J = test::central_differences(
+        [&](const Eigen::VectorXd& x) {
+          std::vector<DepthTerms> at(points_.size());
+          evaluate(moved(pair(), x), options, at);
+          double sum = 0.0;
+          for (const DepthTerms& t : at) sum += t.g;
+          return Eigen::VectorXd::Constant(1, sum);
+        },
+        step);
+    // Gauss-Newton leaves out second derivatives times residuals, which are small here.
+    for (const int begin : {0, 3, 8, 11}) {
+      EXPECT_LT((coupling.segment(begin, 3) - J.row(0).transpose().segment(begin, 3)).norm(),
+                0.2 * J.row(0).transpose().segment(begin, 3).norm())
+          << begin << " " << in_world;
+    }
+  }
+}
+
+TEST_F(PhotometricPairTest, DerivativesAreTakenAtTheLinearisedPoses) {
+  for (WindowPoint& point : points_) point.estimated = true;
+  const SE3 elsewhere = SE3::exp((Vector6d() << 0.03, -0.02, 0.01, 0.004, 0.01, -0.01).finished());
+  const PoseEstimate host{T_world_host_, T_world_host_, false};
+  const PoseEstimate target{T_world_target_, elsewhere * T_world_target_, true};
+  const auto host_points = make_host_points(points_, {}, camera_, host);
+  const PairSystem here = evaluate(pair());
+  const PairSystem there =
+      evaluate_pair({points_, host_points, &target_, camera_, host, target, {}, {}, 1.0}, PhotometricOptions());
+  EXPECT_EQ(here.cost, there.cost);
+  EXPECT_GT((here.H - there.H).norm(), 0.001 * here.H.norm());
+  EXPECT_LT((here.H - there.H).norm(), 0.2 * here.H.norm());
 }
 
 TEST_F(PhotometricPairTest, HostPoseIsObservedOnlyByPlanesOfTheWorld) {
