@@ -22,13 +22,15 @@ struct CloudFlags {
   std::vector<double> origin{0.0, 0.0, 0.0};
   std::string out;
   int every = 10;
+  std::string frames;
   bool remove_outliers = false;
   CloudOptions cloud;
 };
 
 PointCloud cloud_of_sequence(const CloudFlags& flags) {
   const Sequence sequence = open_sequence(flags.sequence);
-  const std::vector<std::size_t> frames = posed_frames(sequence, flags.every);
+  const FrameRange range = flags.frames.empty() ? FrameRange() : parse_frames(flags.frames);
+  const std::vector<std::size_t> frames = posed_frames(sequence, flags.every, range);
   CloudBuilder builder(flags.cloud);
   Progress progress("cloud", static_cast<long>(frames.size()));
   long done = 0;
@@ -76,6 +78,7 @@ void add_cloud(CLI::App& app, Common& common) {
   for (const char* of_sequence : {"--layout", "--camera"}) from->excludes(command->get_option(of_sequence));
   command->add_option("--out", flags->out, "cloud to write (PLY)")->required();
   from->excludes(command->add_option("--every", flags->every, "use every Nth frame")->check(CLI::PositiveNumber));
+  from->excludes(command->add_option("--frames", flags->frames, frames_help));
   command->add_option("--voxel", flags->cloud.voxel, "edge of the voxels that keep one point each, their mean [m]");
   command
       ->add_option("--origin", flags->origin,

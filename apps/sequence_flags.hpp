@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,20 @@ void add_layout_flags(CLI::App* command, SequenceFlags& flags);
 
 Sequence open_sequence(const SequenceFlags& flags);
 
-/// Frames 0, N, 2N, ... that have a pose; InputError if there is none.
-std::vector<std::size_t> posed_frames(const Sequence& sequence, int every);
+/// Frames begin to end - 1, counted from 0.
+struct FrameRange {
+  std::size_t begin = 0;
+  std::size_t end = std::numeric_limits<std::size_t>::max();
+};
+
+/// "A:B" to frames A to B - 1; A or B may be missing: from the first, to the last. InputError for anything else, and
+/// for a range without frames.
+FrameRange parse_frames(const std::string& text);
+
+/// Help of a flag that takes such a range.
+inline constexpr const char* frames_help = "A:B: only frames A to B - 1, counted from 0 (default: all)";
+
+/// Of frames 0, N, 2N, ... those that lie in the range and have a pose; InputError if there is none.
+std::vector<std::size_t> posed_frames(const Sequence& sequence, int every, const FrameRange& range = {});
 
 }  // namespace odosplat::apps

@@ -8,7 +8,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 
+#include "odosplat/compute/device.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/parallel.hpp"
@@ -18,8 +20,17 @@ namespace {
 
 std::atomic<bool> interrupt_flag{false};
 
+constexpr int exit_internal = 1;
+constexpr int exit_bad_input = 2;
+constexpr int exit_interrupted = 130;
+
 extern "C" void on_interrupt(int) {
-  if (interrupt_flag.exchange(true)) std::_Exit(130);
+  if (interrupt_flag.exchange(true)) std::_Exit(exit_interrupted);
+}
+
+int fail(int code, const char* what) {
+  std::fprintf(stderr, "odosplat: %s\n", what);
+  return code;
 }
 
 }  // namespace
@@ -42,6 +53,26 @@ CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, co
     }
   });
   return command;
+}
+
+int run_program(CLI::App& app, int argc, char** argv) {
+  catch_interrupts();
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::Success& e) {  // --help, --version
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    return fail(exit_bad_input, e.what());
+  } catch (const InputError& e) {
+    return fail(exit_bad_input, e.what());
+  } catch (const compute::NoSuchDevice& e) {
+    return fail(exit_bad_input, e.what());
+  } catch (const Interrupted& e) {
+    return fail(exit_interrupted, e.what());
+  } catch (const std::exception& e) {
+    return fail(exit_internal, e.what());
+  }
 }
 
 compute::Context open_device(const Common& common) {

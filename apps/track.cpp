@@ -104,14 +104,14 @@ class Recorder {
   std::vector<double> times_;
 };
 
+}  // namespace
+
 OdometryOptions odometry_options(const TrackJob& job) {
   OdometryOptions options;
   options.keyframe.anchor.enabled = job.anchor;
   options.keyframe.selector.seed = job.seed;
   return options;
 }
-
-}  // namespace
 
 TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
   ensure_output_folder(job.out);

@@ -30,6 +30,9 @@ struct TrackOutcome {
   double p95_ms = 0.0;
 };
 
+/// How the odometry is set for this method and these flags.
+OdometryOptions odometry_options(const TrackJob& job);
+
 /// Tracks a sequence in a map and writes trajectory.txt, trajectory_live.txt, status.csv and report.json to the
 /// folder `out`. After Ctrl-C the files hold the frames so far, and Interrupted is thrown.
 TrackOutcome track_sequence(const Common& common, const TrackJob& job);

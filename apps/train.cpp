@@ -25,9 +25,10 @@ namespace {
 class SequenceViews : public TrainingViews {
  public:
   SequenceViews(const TrainJob& job) {
+    const FrameRange range = job.frames.empty() ? FrameRange() : parse_frames(job.frames);
     for (const std::string& path : job.sequences) {
       sequences_.push_back(Sequence::open(path, job.sequence_options));
-      for (const std::size_t frame : posed_frames(sequences_.back(), job.every)) {
+      for (const std::size_t frame : posed_frames(sequences_.back(), job.every, range)) {
         frames_.push_back({sequences_.size() - 1, frame});
       }
     }
@@ -194,6 +195,7 @@ void add_train(CLI::App& app, Common& common) {
   command->add_flag("--remove-outliers", job->remove_outliers, outliers_help);
   command->add_option("--out", job->out, "map to write (PLY, or .splat)")->required();
   command->add_option("--every", job->every, "train on every Nth frame")->check(CLI::PositiveNumber);
+  command->add_option("--frames", job->frames, frames_help);
   command->add_option("--preset", job->preset, "default, or paper (the recipe of the paper's code)");
   command->add_option("--iterations", job->iterations, "steps of one image each (default: the preset's)");
   command->add_option(

@@ -20,6 +20,7 @@ struct TrainJob {
   std::string out;
   std::string report;  // JSON; empty: none
   int every = 10;
+  std::string frames;  // "A:B" of every sequence; empty: all
   std::string preset = "default";
   int iterations = -1;  // < 0: the preset's
   std::uint64_t seed = 42;

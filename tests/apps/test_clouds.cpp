@@ -141,6 +141,31 @@ TEST_F(Clouds, CloudFlagsThatDoNotBelongTogether) {
   expect_refused({"cloud", "--from", from, "--voxel", "1e-12", "--out", never_}, "such small voxels");
 }
 
+TEST_F(Clouds, FramesPickFromThoseThatEveryPicks) {
+  write_tiny_sequence(scratch_ / "seq", 24);
+  const auto cloud = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"cloud", scratch_ / "seq", "--out", scratch_ / name};
+    words.insert(words.end(), more.begin(), more.end());
+    must_run(words);
+    return read_text(scratch_ / name);
+  };
+  const std::string first = cloud("first.ply", {"--every", "24"});
+  EXPECT_EQ(cloud("a.ply", {"--every", "8", "--frames", "0:8"}), first);
+  EXPECT_EQ(cloud("b.ply", {"--every", "8", "--frames", ":5"}), first);
+  EXPECT_NE(cloud("c.ply", {"--every", "8", "--frames", "1:"}), first);
+  EXPECT_NE(cloud("d.ply", {"--every", "8", "--frames", "0:9"}), first);
+  for (const char* command : {"cloud", "train"}) {
+    std::vector<std::string> words{command, scratch_ / "seq", "--out", never_, "--frames", "1:8"};
+    if (command == std::string("train")) words.insert(words.end(), {"--cloud", scratch_ / "first.ply"});
+    expect_refused(words, "no frame in question has a pose");
+    for (const char* wrong : {"5", "5:5", "7:5", "a:b", "1:2:3", "-1:4", "1.5:4"}) {
+      std::vector<std::string> wrong_words = words;
+      *std::find(wrong_words.begin(), wrong_words.end(), "1:8") = wrong;
+      expect_refused(wrong_words, "--frames: must be A:B");
+    }
+  }
+}
+
 TEST_F(Clouds, TrainThinsItsCloud) {
   write_tiny_sequence(scratch_ / "seq", 24);
   const std::string cloud = scratch_ / "cloud.ply";

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+// How well the odometry does where it is hard: runs on sequences with true poses, judged here; nothing of the truth but
+// the first pose is told to the odometry.
+#include <CLI/CLI.hpp>
+
+#include "scenarios.hpp"
+#include "support.hpp"
+
+using namespace odosplat;
+
+int main(int argc, char** argv) {
+  CLI::App app{"odosplat_accuracy: runs of the odometry under hard conditions, judged by true poses"};
+  app.require_subcommand(1);
+  apps::Common common;
+  accuracy::add_plain(app, common);
+  accuracy::add_long_path(app, common);
+  accuracy::add_leave_map(app, common);
+  accuracy::add_kidnap(app, common);
+  accuracy::add_disturb(app, common);
+  return apps::run_program(app, argc, argv);
+}

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "play.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/progress.hpp"
+#include "support.hpp"
+
+namespace odosplat::accuracy {
+namespace {
+
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double resident_mb() {
+  std::ifstream file("/proc/self/statm");
+  long total = 0;
+  long resident = 0;
+  file >> total >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+}  // namespace
+
+Script in_order(const World& world, std::size_t begin, std::size_t end,
+                const std::function<ImageEdit(std::size_t frame)>& edit) {
+  Script script;
+  for (std::size_t i = begin; i < end; ++i) {
+    script.push_back({world.time(i), i, edit ? edit(i) : ImageEdit(), false});
+  }
+  return script;
+}
+
+Run play(const World& world, MapView& map, SensorView* sensor, const apps::TrackJob& job, const Script& script,
+         const SE3& T_world_camera_start, const std::string& label) {
+  Run run;
+  run.frames.resize(script.size());  // before the odometry: its memory is looked at
+  const auto odometry = make_odometry(world, map, job, T_world_camera_start);
+  Progress progress(label, static_cast<long>(script.size()));
+  double cpu = 0.0;
+  double wall = 0.0;
+  for (std::size_t k = 0; k < script.size(); ++k) {
+    if (apps::interrupted()) throw Interrupted();
+    const Step& step = script[k];
+    if (sensor != nullptr) sensor->set_depth(world.depth(step.frame));
+    GrayImage image = world.gray(step.frame);
+    if (step.edit) image = step.edit(image);
+    PlayedFrame& played = run.frames[k];
+    played.time = step.time;
+    played.frame = step.frame;
+    played.blind = step.blind;
+    played.T_world_camera_true = world.T_world_camera(step.frame);
+    const double cpu_before = cpu_seconds();
+    const apps::Stopwatch watch;
+    played.result = odometry->track(image, step.time);
+    wall += watch.seconds();
+    cpu += cpu_seconds() - cpu_before;
+    played.resident_mb = resident_mb();
+    progress.update(static_cast<long>(k) + 1, to_string(played.result.status));
+  }
+  progress.finish();
+  run.trajectory = odometry->trajectory();
+  run.statistics = odometry->statistics();
+  const double frames = static_cast<double>(std::max<std::size_t>(1, script.size()));
+  run.cpu_ms = 1000.0 * cpu / 2.0 / frames;
+  run.wall_ms = 1000.0 * wall / frames;
+  return run;
+}
+
+Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job, const Script& script,
+         const std::string& label) {
+  return play(world, *opened.view, opened.sensor, job, script, world.T_world_camera(script.at(0).frame), label);
+}
+
+}  // namespace odosplat::accuracy

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "commands.hpp"
+
+/// The scenarios, a file each. Every add_X declares its command on `app` and runs when it was chosen.
+namespace odosplat::accuracy {
+
+void add_plain(CLI::App& app, apps::Common& common);
+void add_long_path(CLI::App& app, apps::Common& common);
+void add_leave_map(CLI::App& app, apps::Common& common);
+void add_kidnap(CLI::App& app, apps::Common& common);
+void add_disturb(CLI::App& app, apps::Common& common);
+
+}  // namespace odosplat::accuracy

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "world.hpp"
+
+#include <algorithm>
+
+#include "odosplat/core/error.hpp"
+
+namespace odosplat::accuracy {
+
+void add_job_flags(CLI::App* command, Job& job) {
+  apps::add_sequence_flags(command, job.track.sequence);
+  apps::add_map_flags(command, job.track.map);
+  command->add_option("--method", job.track.method, "as odosplat track knows it");
+  command->add_flag("!--no-anchor", job.track.anchor, "do not align keyframes with the map's rendered image");
+  command->add_option("--seed", job.track.seed, "seed of the pixel selector and of every disturbance");
+  command->add_option("--frames", job.frames, apps::frames_help);
+  command->add_option("--json", job.json, "the rows of the table, to this file");
+  command->add_option("--trace", job.trace, "every frame of every run with its error, to this file (CSV)");
+}
+
+World::World(const Job& job) : sequence_(apps::open_sequence(job.track.sequence)) {
+  const apps::FrameRange range = job.frames.empty() ? apps::FrameRange() : apps::parse_frames(job.frames);
+  begin_ = range.begin;
+  const std::size_t end = std::min(range.end, sequence_.size());
+  if (end < begin_ + 2) throw InputError(sequence_.name(), "has fewer than two frames in question");
+  size_ = end - begin_;
+  for (std::size_t i = 0; i < size_; ++i) {
+    if (!sequence_.T_world_camera(begin_ + i)) {
+      throw InputError(sequence_.name(), "frame " + std::to_string(begin_ + i), "has no true pose to be judged by");
+    }
+  }
+}
+
+std::unique_ptr<Odometry> make_odometry(const World& world, MapView& map, const apps::TrackJob& job,
+                                        const SE3& T_world_camera_start) {
+  return std::make_unique<Odometry>(world.camera(), map, apps::odometry_options(job), T_world_camera_start);
+}
+
+}  // namespace odosplat::accuracy

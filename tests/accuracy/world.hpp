@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "map_views.hpp"
+#include "odosplat/io/sequence.hpp"
+#include "odosplat/odometry/odometry.hpp"
+#include "track.hpp"
+
+namespace odosplat::accuracy {
+
+/// What every scenario is given: a sequence with true poses, a map, and how they are read.
+struct Job {
+  apps::TrackJob track;  // sequence, method, map, anchor, seed
+  std::string frames;    // "A:B" of the sequence; empty: all
+  std::string json;      // file for the rows; empty: none
+  std::string trace;     // file (CSV) for every frame of every run; empty: none
+};
+
+/// Declares the flags of Job on a scenario's command.
+void add_job_flags(CLI::App* command, Job& job);
+
+/// The frames in question of a sequence with true poses. Frames count from 0 at the first of them.
+class World {
+ public:
+  /// InputError if a frame has no true pose, or if there are fewer than two frames.
+  explicit World(const Job& job);
+
+  std::size_t size() const { return size_; }
+  const Camera& camera() const { return sequence_.camera(); }
+  const std::string& name() const { return sequence_.name(); }
+  double fps() const { return sequence_.fps(); }
+  double time(std::size_t i) const { return sequence_.time(begin_ + i); }
+  GrayImage gray(std::size_t i) const { return sequence_.gray(begin_ + i); }
+  DepthImage depth(std::size_t i) const {
+    return sequence_.has_depth(begin_ + i) ? sequence_.depth(begin_ + i) : DepthImage();
+  }
+  SE3 T_world_camera(std::size_t i) const { return *sequence_.T_world_camera(begin_ + i); }
+  /// The frame's number in the sequence.
+  std::size_t number(std::size_t i) const { return begin_ + i; }
+
+ private:
+  Sequence sequence_;
+  std::size_t begin_ = 0;
+  std::size_t size_ = 0;
+};
+
+/// The odometry that scenarios judge: the one place that makes it. map must outlive it.
+std::unique_ptr<Odometry> make_odometry(const World& world, MapView& map, const apps::TrackJob& job,
+                                        const SE3& T_world_camera_start);
+
+}  // namespace odosplat::accuracy
