@@ -86,7 +86,8 @@ MadeKeyframe KeyframeMaker::make(const FramePyramid& pyramid, const ViewImages& 
     return static_cast<int>(made.reference.levels.front().size()) + others >= options_.min_points;
   };
   made.verifiable = options_.anchor.enabled && !view.color.empty();
-  made.in_map = enough(0) && made.map_share >= options_.min_map_share;
+  // A map without colours is taken as it comes: once left, nothing would tell when to believe it again.
+  made.in_map = enough(0) && (made.map_share >= options_.min_map_share || !made.verifiable);
   made.keyframe = std::make_shared<Keyframe>();
   made.keyframe->T_world_camera = T_world_camera;
   made.keyframe->brightness = brightness;

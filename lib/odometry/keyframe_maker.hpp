@@ -40,9 +40,9 @@ struct KeyframeMakerOptions {
                                // the map lies at the image's rim and at the map's, where both are worst
   double full_share = 0.8;     // of the image with map depth, from which on the window gets as many points as it wants
   double hole = 0.015;         // of width + height: holes at least this wide in the map's depth are borders of the map
-  double border = 0.015;  // of width + height: how near to them depth is not used. Gaussians at the border were seen
-                          // from few sides and stick out
-  int min_points = 100;   // with depth, on full size, the map's or other keyframes'; fewer make no keyframe
+  double border = 0.04;  // of width + height: how near to them depth is not used. Gaussians at the border were seen
+                         // from few sides and stick out
+  int min_points = 100;  // with depth, on full size, the map's or other keyframes'; fewer make no keyframe
 
   void check() const;
 };

@@ -21,8 +21,6 @@ struct WindowOptions {
 struct Window {
   std::vector<std::shared_ptr<Keyframe>> keyframes;
   MarginalPrior prior;  // of some of the keyframes
-
-  void clear() { *this = {}; }
 };
 
 /// The window moved as a whole: p_new = p + by.

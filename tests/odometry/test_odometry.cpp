@@ -116,7 +116,7 @@ TEST_F(OdometryTest, GoesOnBeyondTheMapAndComesBackIntoIt) {
     outside += result.in_map ? 0 : 1;
     const double error = (path(k).inverse() * result.T_world_camera).translation().norm();
     EXPECT_LT(error, 0.06) << k;
-    if (k >= 185) {
+    if (k >= 190) {
       EXPECT_TRUE(result.in_map) << k;
       EXPECT_LT(error, 0.005) << k;
     }
