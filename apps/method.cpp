@@ -8,11 +8,11 @@ namespace odosplat::apps {
 
 const std::vector<MethodPreset>& method_presets() {
   static const std::vector<MethodPreset> presets{
-      {"gaussian", ViewKind::gaussians, DepthMode::surface, true, true},
-      {"paper", ViewKind::gaussians, DepthMode::blended, false, false},
-      {"interpolation", ViewKind::interpolation, DepthMode::surface, false, false},
-      {"surfel", ViewKind::surfels, DepthMode::surface, false, true},
-      {"rgbd", ViewKind::sensor, DepthMode::surface, false, false},
+      {"gaussian", ViewKind::gaussians, DepthMode::surface, true, DepthUse::pose_aware_prior},
+      {"paper", ViewKind::gaussians, DepthMode::blended, false, DepthUse::interval},
+      {"interpolation", ViewKind::interpolation, DepthMode::surface, false, DepthUse::interval},
+      {"surfel", ViewKind::surfels, DepthMode::surface, false, DepthUse::pose_aware},
+      {"rgbd", ViewKind::sensor, DepthMode::surface, false, DepthUse::free},
   };
   return presets;
 }
@@ -37,7 +37,7 @@ const MethodPreset& method_preset(const std::string& name) {
 OdometryOptions odometry_options(const MethodPreset& preset, std::optional<bool> anchor) {
   OdometryOptions options;
   options.keyframe.anchor.enabled = anchor.value_or(preset.anchor);
-  options.optimizer.photometric.planes_in_world = preset.planes_in_world;
+  options.keyframe.window_points.depth_use = preset.depth_use;
   return options;
 }
 

@@ -20,16 +20,14 @@ struct MethodPreset {
   ViewKind view;
   DepthMode depth_mode;  // of Gaussians
   bool anchor;           // keyframes are aligned with the map's rendered colours
-  /// true: a point keeps to the world plane that the map shows there, so its depth follows its keyframe's pose; false:
-  /// it keeps the depth that it had when its keyframe was rendered.
-  bool planes_in_world;
+  DepthUse depth_use;    // what the window makes of the depth
 };
 
-/// gaussian       ours: Gaussians, depth by ray planes, planes of the world, anchor
-/// paper          the paper's: Gaussians, blended depth as it was when rendered, no anchor
+/// gaussian       ours: Gaussians, depth by ray planes as a measurement in the planes of the world, anchor
+/// paper          the paper's: Gaussians, blended depth as start and search interval of +-20 %, no anchor
 /// interpolation  the paper's ablation: the same with depth interpolated in the cloud (DEMO)
 /// surfel         DSL (Ye, Huang, Liu 2020): surfels of the cloud, coplanarity (planes of the world), no anchor
-/// rgbd           RGBD-DSO (Yuan et al. 2021): the sensor's depth, which holds for its keyframe only, no anchor
+/// rgbd           RGBD-DSO (Yuan et al. 2021): the sensor's depth, which starts a point and does not hold it, no anchor
 const std::vector<MethodPreset>& method_presets();
 
 /// InputError that lists the names if there is none of that name.

@@ -107,6 +107,7 @@ class Run {
 
 OdometryOptions odometry_options(const TrackJob& job) {
   OdometryOptions options = odometry_options(method_preset(job.method), job.anchor);
+  if (!job.depth_use.empty()) options.keyframe.window_points.depth_use = depth_use(job.depth_use);
   options.keyframe.selector.seed = job.seed;
   options.background = job.realtime;
   return options;
@@ -191,6 +192,9 @@ void add_track(CLI::App& app, Common& common) {
   command->add_flag("--realtime", job->realtime,
                     "play at the sequence's rate: keyframes in the background, late frames are dropped (default: every "
                     "frame, same bits every time)");
+  command->add_option("--depth-use", job->depth_use,
+                      "what the window makes of the map's depth: fixed, pose_aware, prior, pose_aware_prior, free or "
+                      "interval (default: the method's)");
   add_depth_noise_flag(command, job->depth_noise);
   command->add_option("--seed", job->seed, "seed of the pixel selector and of depth noise");
   command->final_callback([&common, job, anchor, relocalise] {

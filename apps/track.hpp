@@ -18,6 +18,7 @@ struct TrackJob {
   bool relocalise = true;       // look lost frames up in the map
   std::string places;           // to look from; empty: where the map says it was seen from
   std::optional<bool> anchor;   // of the map's colours; none: as the method has it
+  std::string depth_use;        // what the window makes of the map's depth; empty: as the method has it
   DepthNoiseFlags depth_noise;
   bool realtime = false;         // at the sequence's rate, late frames dropped
   std::uint64_t seed = 3141592;  // of the pixel selector and of depth noise

@@ -72,12 +72,13 @@ void TrackRecord::write(const TrackJob& job, const TrackOutcome& o, const Odomet
 }
 
 std::string TrackRecord::status_table(const std::vector<double>& keyframe_times) const {
-  std::string table = "time,status,keyframe,inlier_share,milliseconds,map_share\n";
+  std::string table = "time,status,keyframe,inlier_share,milliseconds,map_share,in_map\n";
   for (const Row& row : rows_) {
     const bool keyframe = std::binary_search(keyframe_times.begin(), keyframe_times.end(), row.time);
     char line[160];
-    std::snprintf(line, sizeof(line), ",%s,%d,%.4f,%.3f,%.4f\n", to_string(row.result.status).c_str(), keyframe ? 1 : 0,
-                  row.result.inlier_share, row.result.milliseconds, row.result.map_share);
+    std::snprintf(line, sizeof(line), ",%s,%d,%.4f,%.3f,%.4f,%d\n", to_string(row.result.status).c_str(),
+                  keyframe ? 1 : 0, row.result.inlier_share, row.result.milliseconds, row.result.map_share,
+                  row.result.in_map ? 1 : 0);
     table += row.stamp + line;
   }
   return table;

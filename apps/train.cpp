@@ -58,7 +58,7 @@ TrainerOptions trainer_options(const TrainJob& job) {
   if (job.iterations >= 0) options.iterations = job.iterations;
   options.seed = job.seed;
   if (!job.densify.empty()) options.densify.method = densify_method(job.densify);
-  options.densify.budget = job.budget;
+  if (job.budget > 0) options.densify.budget = job.budget;
   if (job.exposure == "on") options.exposure.rate = 1e-3;
   if (job.exposure == "off") options.exposure.rate = 0.0;
   if (job.depth_weight >= 0.0) options.depth.weight = job.depth_weight;
@@ -203,8 +203,8 @@ void add_train(CLI::App& app, Common& common) {
   command->add_option("--iterations", job->iterations, "steps of one image each (default: the preset's)");
   command->add_option(
       "--budget", job->budget,
-      "most Gaussians: of the cloud's points, and that densification grows to; 0 = one a point, and split "
-      "without limit");
+      "most Gaussians: of the cloud's points, and that densification grows to; 0 = one a point, and the preset's "
+      "limit of growth (default: 150000, paper: none)");
   command->add_option(
       "--densify", job->densify,
       "none, relocate (the dead move to where the images need them, and grow to the budget) or split (clone "

@@ -2,35 +2,46 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
 #include "odosplat/core/se3.hpp"
 #include "odosplat/odometry/frame.hpp"
+#include "odosplat/odometry/immature_point.hpp"
 #include "odosplat/odometry/map_plane.hpp"
+#include "odosplat/odometry/residual_pattern.hpp"
 #include "odosplat/odometry/tracking_reference.hpp"
 
 namespace odosplat {
 
-/// DSO's residual pattern: offsets [px] around a point; 8 pixels, so that two SIMD registers hold them.
-inline constexpr int pattern_size = 8;
-inline constexpr std::array<std::array<int, 2>, pattern_size> pattern = {
-    {{0, -2}, {-1, -1}, {1, -1}, {-2, 0}, {0, 0}, {2, 0}, {-1, 1}, {0, 2}}};
-
-/// A point of the window's adjustment: a pixel of its host with the world plane that the map shows there. The plane is
-/// the map's and stays; where the pixel's ray meets it follows from the host's pose (reference: Ye, Huang, Liu 2020),
-/// so that the map's geometry observes absolute pose.
+/// A point of the window's adjustment: a pixel of its host and its inverse depth, which is that of a plane where the
+/// pixel's ray meets it, plus `offset`. The plane is the map's and stays in the world, so that moving the host moves
+/// the point along it and the map's geometry observes absolute pose (Ye, Huang, Liu 2020); or it moves with the host
+/// (`plane_in_world` false). The offset is 0, or an unknown of the adjustment (`estimated`), with a prior around 0 or
+/// without: points that the map does not show, and maps that are not believed to the last millimetre.
 struct WindowPoint {
   float u = 0.0F;  // [px]
   float v = 0.0F;
   Plane plane_world;
-  Eigen::Vector3d m_host =
-      Eigen::Vector3d::Zero();         // [1/m] the same plane m . p_host = 1 as rendered, were it fixed to the host
-  double sigma = 0.0;                  // [1/m] of inverse depth
+  Eigen::Vector3d m_host = Eigen::Vector3d::Zero();  // [1/m] plane m . p_host = 1, for planes that move with the host
+  double sigma = 0.0;                                // [1/m] of the plane's inverse depth, where nothing is estimated
+  bool plane_in_world = true;
+  bool estimated = false;
+  bool of_map = true;                  // the map's depth, in whatever way it is used; false: seen by motion alone
+  double offset = 0.0;                 // [1/m]
+  double prior_information = 0.0;      // [m^2] of the offset around 0, if estimated; 0: none
+  int agreeing = 0;                    // keyframes in which it was seen and agreed, at the last adjustment
+  int contradicting = 0;               // keyframes in which it was in view and differed too much
   float intensity[pattern_size] = {};  // [grey]
   float weight[pattern_size] = {};     // gradient-dependent, 0..1
 };
+
+/// Inverse depth [1/m] of the point for its host at T_world_host; not positive where there is none.
+inline double inverse_depth(const WindowPoint& point, const Camera& camera, const SE3& T_world_host) {
+  const Eigen::Vector3d ray = camera.ray(point.u, point.v);
+  const Eigen::Vector3d m = point.plane_in_world ? plane_in_camera(point.plane_world, T_world_host) : point.m_host;
+  return m.dot(ray) + point.offset;
+}
 
 /// The map's own view from a pose where a keyframe was believed to be: its image says what the keyframe should see from
 /// exactly there. The pose is known and fixed: nothing estimated is in it. Empty without points.
@@ -51,6 +62,7 @@ struct Keyframe {
   Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera
   GradientImage gradient;                  // full size
   std::vector<WindowPoint> points;
+  std::vector<ImmaturePoint> immature;
   MapAnchor anchor;
   std::shared_ptr<const TrackingReference> reference;  // this image with the map's depth, for tracking later frames
 };

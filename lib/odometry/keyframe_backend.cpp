@@ -8,7 +8,7 @@
 namespace odosplat {
 namespace {
 
-enum StageIndex : std::size_t { stage_render, stage_keyframe, stage_optimise };
+enum StageIndex : std::size_t { stage_render, stage_keyframe, stage_optimise, stage_trace };
 
 }  // namespace
 
@@ -16,6 +16,8 @@ void KeyframeBackendOptions::check() const {
   keyframe.check();
   window.check();
   optimizer.check();
+  marginalisation.check();
+  activation.check();
 }
 
 KeyframeBackend::KeyframeBackend(const Camera& camera, MapView& map, const Tracker& tracker,
@@ -29,9 +31,42 @@ KeyframeBackend::KeyframeBackend(const Camera& camera, MapView& map, const Track
   options_.check();
 }
 
-KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
+void KeyframeBackend::trace(const TrackedImage& image) {
+  const StageTimer timer(stages_[stage_trace]);
+  const SE3 T_camera_world = image.T_world_camera.inverse();
+  for (const auto& host : window_.keyframes) {
+    if (host->immature.empty()) continue;
+    trace_points(host->immature, T_camera_world * host->T_world_camera, camera_, image.pyramid->gray.front(),
+                 relative_brightness(image.brightness, host->brightness), options_.keyframe.immature);
+  }
+}
+
+std::vector<ProjectedPoint> KeyframeBackend::points_seen_from(const SE3& T_world_camera) const {
+  std::vector<ProjectedPoint> seen;
+  const SE3 T_camera_world = T_world_camera.inverse();
+  for (const auto& host : window_.keyframes) {
+    const SE3 T_camera_host = T_camera_world * host->T_world_camera;
+    for (const WindowPoint& point : host->points) {
+      if (point.of_map) continue;
+      const double q = inverse_depth(point, camera_, host->T_world_camera);
+      if (!(q > 0.0)) continue;
+      const Eigen::Vector3d p = T_camera_host * (camera_.ray(point.u, point.v) / q);
+      if (!(p.z() > 1e-3)) continue;
+      const Eigen::Vector2d uv = camera_.project(p);
+      if (!(uv.x() >= 0.0 && uv.y() >= 0.0 && uv.x() < camera_.width - 1 && uv.y() < camera_.height - 1)) continue;
+      seen.push_back({static_cast<float>(uv.x()), static_cast<float>(uv.y()), static_cast<float>(1.0 / p.z())});
+    }
+  }
+  return seen;
+}
+
+MadeKeyframe KeyframeBackend::make(const KeyframeRequest& request, double& corrected, bool& prefetched) {
   const AnchorOptions& anchor = options_.keyframe.anchor;
   MapView& map = request.view != nullptr ? *request.view : map_;
+  KeyframeContext context;
+  context.first = window_.keyframes.empty();
+  context.other_points = static_cast<int>(points_seen_from(request.T_world_camera).size());
+  context.distrust_map = outside_;
   SE3 T_world_keyframe = request.T_world_camera;
   // What was rendered ahead shows what the anchor's alignment will find, only its pose is another than the frame's: a
   // keyframe that is not anchored cannot be made from it.
@@ -41,15 +76,13 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
     ahead.reset();
   }
   MadeKeyframe made;
-  double corrected = 0.0;
-  bool prefetched = false;
   // Seen from where the map says the camera is, if that is elsewhere: depth and colour must belong to the pixel.
   for (int attempt = 0; attempt < 3; ++attempt) {
     prefetched = attempt == 0 && ahead.has_value();
     if (prefetched) T_world_keyframe = ahead->T_world_camera;
     const ViewImages view = prefetched ? ahead->images : render(map, T_world_keyframe);
     const StageTimer timer(stages_[stage_keyframe]);
-    made = maker_.make(*request.pyramid, view, T_world_keyframe, request.brightness, tracker_);
+    made = maker_.make(*request.pyramid, view, T_world_keyframe, request.brightness, tracker_, context);
     if (prefetched && !made.anchored) {
       T_world_keyframe = request.T_world_camera;
       continue;
@@ -61,6 +94,46 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
     T_world_keyframe = made.T_world_camera_map;
     if (made.map_flow <= anchor.render_again_flow) break;
   }
+  if (outside_ && corrected > 0.0 && (!made.anchored || made.map_flow > anchor.render_again_flow)) {
+    // A place that the map gives and does not confirm from there is no way back into it.
+    const StageTimer timer(stages_[stage_keyframe]);
+    const double map_share = made.map_share;
+    made = maker_.make(*request.pyramid, {}, request.T_world_camera, request.brightness, tracker_, context);
+    made.map_share = map_share;
+    corrected = 0.0;
+  } else if (made.anchored && made.keyframe != nullptr) {
+    made.keyframe->T_world_camera = T_world_keyframe;
+  }
+  return made;
+}
+
+void KeyframeBackend::come_back(const SE3& T_correction, bool far) {
+  const auto held_by_map = [](const std::shared_ptr<Keyframe>& k) {
+    return !k->anchor.points.empty() ||
+           std::any_of(k->points.begin(), k->points.end(), [](const WindowPoint& p) { return p.of_map; });
+  };
+  if (far) std::erase_if(window_.keyframes, held_by_map);
+  for (const auto& k : window_.keyframes) {
+    if (!held_by_map(k)) k->T_world_camera = T_correction * k->T_world_camera;
+  }
+  window_.prior.clear();
+}
+
+void KeyframeBackend::make_room() {
+  const int drop = keyframe_to_drop(window_, camera_, options_.window);
+  if (drop < 0) return;
+  marginalise_keyframe(window_, static_cast<std::size_t>(drop), camera_, options_.optimizer, options_.marginalisation);
+}
+
+KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
+  if (request.fresh) {
+    window_.keyframes.clear();
+    window_.prior.clear();
+    outside_ = false;
+  }
+  double corrected = 0.0;
+  bool prefetched = false;
+  MadeKeyframe made = make(request, corrected, prefetched);
   KeyframeOutcome outcome;
   outcome.map_share = made.map_share;
   outcome.map_correlation = made.anchor.correlation;
@@ -68,19 +141,30 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   outcome.made = true;
   outcome.anchored = made.anchored;
   outcome.prefetched = prefetched;
+  outcome.in_map = made.in_map;
   const std::shared_ptr<Keyframe>& keyframe = made.keyframe;
   keyframe->id = request.id;
   keyframe->frame = request.frame;
   keyframe->time = request.time;
-  if (made.anchored) keyframe->T_world_camera = T_world_keyframe;
-  if (request.fresh || (made.anchored && corrected > anchor.reset_flow)) window_.keyframes.clear();
-  const int drop = keyframe_to_drop(window_, camera_, options_.window);
-  if (drop >= 0) window_.keyframes.erase(window_.keyframes.begin() + drop);
-  window_.keyframes.push_back(keyframe);
+  const bool far = corrected > options_.keyframe.anchor.reset_flow;
+  if (made.anchored && (outside_ || far)) come_back(keyframe->T_world_camera * request.T_world_camera.inverse(), far);
+  if (!made.in_map) {
+    outside_ = true;
+  } else if (made.anchored || !made.verifiable) {
+    outside_ = false;
+  }
   {
     const StageTimer timer(stages_[stage_optimise]);
+    make_room();
+    window_.keyframes.push_back(keyframe);
+    activate_points(window_, camera_, options_.optimizer.photometric, options_.activation);
     optimizer_.optimize(window_, camera_);
+    remove_bad_points(window_, camera_);
   }
+  const StageTimer timer(stages_[stage_keyframe]);
+  add_projected_points(made.reference, made.gradients, points_seen_from(keyframe->T_world_camera),
+                       options_.keyframe.reference);
+  keyframe->reference = std::make_shared<TrackingReference>(std::move(made.reference));
   outcome.window = references();
   return outcome;
 }

@@ -8,6 +8,8 @@
 
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/odometry/keyframe_maker.hpp"
+#include "odosplat/odometry/marginalisation.hpp"
+#include "odosplat/odometry/point_activation.hpp"
 #include "odosplat/odometry/reference_frame.hpp"
 #include "odosplat/odometry/rendered_view.hpp"
 #include "odosplat/odometry/stage_times.hpp"
@@ -20,8 +22,17 @@ struct KeyframeBackendOptions {
   KeyframeMakerOptions keyframe;
   WindowOptions window;
   WindowOptimizerOptions optimizer;
+  MarginalisationOptions marginalisation;
+  ActivationOptions activation;
 
   void check() const;
+};
+
+/// A frame that was tracked.
+struct TrackedImage {
+  std::shared_ptr<const FramePyramid> pyramid;
+  SE3 T_world_camera;
+  Brightness brightness;
 };
 
 /// A tracked frame that should become a keyframe.
@@ -38,16 +49,20 @@ struct KeyframeRequest {
 
 /// What came of it.
 struct KeyframeOutcome {
-  bool made = false;  // false: the map shows too little there; the window is as it was
+  bool made = false;  // false: too little depth there; the window is as it was
   bool anchored = false;
-  bool prefetched = false;             // made from the view that was rendered ahead
-  double map_share = 0.0;              // share of the image where the map has depth
+  bool prefetched = false;  // made from the view that was rendered ahead
+  bool in_map = false;      // the map alone gives depth enough; else the camera goes by what it has seen on its way
+  double map_share = 0.0;   // share of the image where the map has depth
   double map_correlation = 0.0;        // of the image with the map's rendered view at its points, -1..1
   std::vector<ReferenceFrame> window;  // all keyframes as they are now, oldest first
 };
 
 /// The odometry's back end: renders the map where a frame wants to become a keyframe, makes the keyframe, anchors it,
-/// and adjusts the window of keyframes. Knows nothing of the frames between. Not thread safe; uses parallel_for inside.
+/// and adjusts the window of keyframes. Pixels that the map does not show become points by motion: every frame between
+/// narrows their depth (trace), and keyframes outside the map live on these alone. Once the camera has been outside,
+/// the map's depth is believed again from the first keyframe on that its colours hold in place; the keyframes made
+/// outside are moved along then. Not thread safe; uses parallel_for inside.
 class KeyframeBackend {
  public:
   /// map and tracker must outlive this.
@@ -59,13 +74,21 @@ class KeyframeBackend {
   /// lies within render_again_flow of it: no farther off than an anchored keyframe may lie from the view rendered for
   /// it.
   void prefetch(const SE3& T_world_camera);
+  /// A tracked frame, keyframe or not; before add, if it is to become one. Costs nothing where the map shows
+  /// everything.
+  void trace(const TrackedImage& image);
 
   const Window& window() const { return window_; }
-  /// render, keyframe, optimise.
+  /// render, keyframe, optimise, trace.
   const std::vector<StageTime>& stages() const { return stages_; }
 
  private:
   ViewImages render(MapView& map, const SE3& T_world_camera);
+  MadeKeyframe make(const KeyframeRequest& request, double& corrected, bool& prefetched);
+  void make_room();
+  /// Moves the keyframes that only their own motion has placed; far: what the map holds is elsewhere, and is dropped.
+  void come_back(const SE3& T_correction, bool far);
+  std::vector<ProjectedPoint> points_seen_from(const SE3& T_world_camera) const;
   std::vector<ReferenceFrame> references() const;
 
   Camera camera_;
@@ -76,7 +99,8 @@ class KeyframeBackend {
   WindowOptimizer optimizer_;
   Window window_;
   std::optional<RenderedView> prefetched_;
-  std::vector<StageTime> stages_{{"render"}, {"keyframe"}, {"optimise"}};
+  bool outside_ = false;  // the map has been left and has not been found again
+  std::vector<StageTime> stages_{{"render"}, {"keyframe"}, {"optimise"}, {"trace"}};
 };
 
 }  // namespace odosplat

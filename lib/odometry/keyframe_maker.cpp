@@ -3,9 +3,11 @@
 #include "odosplat/odometry/keyframe_maker.hpp"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/odometry/keyframe_policy.hpp"
+#include "odosplat/odometry/motion_model.hpp"
 
 namespace odosplat {
 
@@ -16,6 +18,7 @@ void AnchorOptions::check() const {
   require(min_coverage >= 0.0 && min_coverage <= 1.0, "anchor.min_coverage", "in [0, 1]");
   require(max_rmse > 0.0, "anchor.max_rmse", "positive");
   require(render_again_flow > 0.0, "anchor.render_again_flow", "positive");
+  require(far_off_angle > 0.0, "anchor.far_off_angle", "positive");
   require(reset_flow >= render_again_flow, "anchor.reset_flow", "at least render_again_flow");
 }
 
@@ -24,8 +27,12 @@ void KeyframeMakerOptions::check() const {
   reference.check();
   plane.check();
   window_points.check();
+  immature.check();
   anchor.check();
   require(smoothing >= 0.0 && smoothing <= 1.5, "keyframe.smoothing", "0 to 1.5 px");
+  require(min_map_share >= 0.0 && min_map_share < 1.0, "keyframe.min_map_share", "in [0, 1)");
+  require(full_share > 0.0 && full_share <= 1.0, "keyframe.full_share", "in (0, 1]");
+  require(hole > 0.0 && border >= 0.0, "keyframe.hole and border", "positive");
   require(min_points >= 20, "keyframe.min_points", "at least 20");
 }
 
@@ -34,34 +41,95 @@ KeyframeMaker::KeyframeMaker(const KeyframeMakerOptions& options)
       reference_selector_(options.selector),
       window_selector_(options.selector),
       map_reference_selector_(options.selector),
-      anchor_selector_(options.selector) {
+      anchor_selector_(options.selector),
+      immature_selector_(options.selector) {
   options_.check();
 }
 
-MadeKeyframe KeyframeMaker::make(const FramePyramid& pyramid, const ViewImages& view, const SE3& T_world_camera,
-                                 const Brightness& brightness, const Tracker& tracker) {
+ViewImages KeyframeMaker::without_border(const ViewImages& view, double share) const {
+  if (share == 0.0 || share == 1.0 || options_.border == 0.0) return view;
+  const double size = view.depth.cols + view.depth.rows;
+  const auto square = [](double side) {
+    const int odd = 2 * static_cast<int>(0.5 * side) + 1;
+    return cv::getStructuringElement(cv::MORPH_RECT, {odd, odd});
+  };
+  cv::Mat1b holes;
+  holes = view.depth <= 0.0F;
+  // Outside of the image nothing is known, and nothing assumed.
+  const cv::Scalar none = cv::Scalar::all(0);
+  cv::erode(holes, holes, square(options_.hole * size));
+  cv::dilate(holes, holes, square((options_.hole + 2.0 * options_.border) * size), {-1, -1}, 1, cv::BORDER_CONSTANT,
+             none);
+  ViewImages inner = view;
+  inner.depth = view.depth.clone();
+  inner.depth.setTo(0.0F, holes);
+  return inner;
+}
+
+MadeKeyframe KeyframeMaker::make(const FramePyramid& pyramid, const ViewImages& whole_view, const SE3& T_world_camera,
+                                 const Brightness& brightness, const Tracker& tracker, const KeyframeContext& context) {
   MadeKeyframe made;
-  if (view.depth.empty()) return made;
-  made.map_share = static_cast<double>(cv::countNonZero(view.depth)) / static_cast<double>(view.depth.total());
-  const auto gradients = build_gradients(pyramid);
-  auto keyframe = std::make_shared<Keyframe>();
-  keyframe->T_world_camera = T_world_camera;
-  keyframe->brightness = brightness;
-  keyframe->gradient = gradients.front();
-  TrackingReference reference =
-      build_reference(pyramid, gradients, view, reference_selector_, options_.reference, options_.plane);
-  if (reference.empty() || static_cast<int>(reference.levels.front().size()) < options_.min_points) return made;
-  keyframe->reference = std::make_shared<TrackingReference>(std::move(reference));
-  keyframe->points =
-      make_window_points(pyramid.cameras.front(), gradients, view, T_world_camera, options_.window_points.points,
-                         window_selector_, options_.window_points, options_.plane);
-  made.keyframe = keyframe;
-  if (options_.anchor.enabled && !view.color.empty()) add_anchor(made, pyramid, view, tracker);
+  if (!whole_view.depth.empty()) {
+    made.map_share =
+        static_cast<double>(cv::countNonZero(whole_view.depth)) / static_cast<double>(whole_view.depth.total());
+  }
+  const ViewImages view = without_border(whole_view, made.map_share);
+  // Where the map shows less, it has less to say: points are as dense as in a full image.
+  if (!view.depth.empty()) {
+    const double shown = static_cast<double>(cv::countNonZero(view.depth)) / static_cast<double>(view.depth.total());
+    made.point_share = std::min(1.0, shown / options_.full_share);
+  }
+  made.gradients = build_gradients(pyramid);
+  made.reference =
+      build_reference(pyramid, made.gradients, view, reference_selector_, options_.reference, options_.plane);
+  const auto enough = [&](int others) {
+    return static_cast<int>(made.reference.levels.front().size()) + others >= options_.min_points;
+  };
+  made.verifiable = options_.anchor.enabled && !view.color.empty();
+  // A map without colours is taken as it comes: once left, nothing would tell when to believe it again.
+  made.in_map = enough(0) && (made.map_share >= options_.min_map_share || !made.verifiable);
+  made.keyframe = std::make_shared<Keyframe>();
+  made.keyframe->T_world_camera = T_world_camera;
+  made.keyframe->brightness = brightness;
+  made.keyframe->gradient = made.gradients.front();
+  if (made.in_map && made.verifiable) add_anchor(made, pyramid, view, tracker, context.distrust_map);
+  const bool map_believed = made.in_map && (!context.distrust_map || made.anchored || !made.verifiable);
+  if (!map_believed) {
+    made.in_map = false;
+    for (auto& level : made.reference.levels) level.clear();
+  }
+  if (!enough(context.other_points)) {
+    made.keyframe = nullptr;
+    return made;
+  }
+  add_points(made, pyramid, map_believed ? view : ViewImages(), context.first);
   return made;
 }
 
+void KeyframeMaker::add_points(MadeKeyframe& made, const FramePyramid& pyramid, const ViewImages& view, bool first) {
+  Keyframe& keyframe = *made.keyframe;
+  const WindowPointOptions& options = options_.window_points;
+  const bool search = options.depth_use == DepthUse::interval && !first;
+  const int wanted = static_cast<int>(made.point_share * options.points);
+  keyframe.immature =
+      make_immature_points(made.gradients, view.depth, options.gradient_weight, immature_selector_, options_.immature);
+  keyframe.points = make_window_points(pyramid.cameras.front(), made.gradients, view, keyframe.T_world_camera, wanted,
+                                       window_selector_, options, options_.plane, options.depth_use);
+  if (!search) return;
+  for (const WindowPoint& point : keyframe.points) {
+    const cv::Point pixel(static_cast<int>(point.u), static_cast<int>(point.v));
+    const double q = inverse_depth(point, pyramid.cameras.front(), keyframe.T_world_camera);
+    ImmaturePoint immature = make_immature_point(keyframe.gradient, pixel, options.gradient_weight);
+    immature.of_map = true;
+    immature.min_q = q / (1.0 + options_.immature.depth_interval);
+    immature.max_q = q / (1.0 - options_.immature.depth_interval);
+    keyframe.immature.push_back(immature);
+  }
+  keyframe.points.clear();
+}
+
 void KeyframeMaker::add_anchor(MadeKeyframe& made, const FramePyramid& pyramid, const ViewImages& view,
-                               const Tracker& tracker) {
+                               const Tracker& tracker, bool far_off) {
   const AnchorOptions& options = options_.anchor;
   Keyframe& keyframe = *made.keyframe;
   const FramePyramid rendered = build_frame_pyramid(pyramid.cameras.front(), to_gray(view.color), options_.smoothing);
@@ -69,8 +137,15 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const FramePyramid& pyramid, 
   const TrackingReference reference =
       build_reference(rendered, gradients, view, map_reference_selector_, options_.reference, options_.plane);
   if (reference.empty()) return;
-  // Where does the image lie in the rendered one? Levels 2 to 0: the tracked pose is good to a few pixels.
-  const Alignment alignment = tracker.align(reference, pyramid, SE3(), {}, 2, 0);
+  // Where does the image lie in the rendered one? Levels 2 to 0 where the tracked pose is good to a few pixels.
+  Alignment alignment;
+  if (far_off) {
+    std::vector<SE3> guesses{SE3()};
+    for (const SE3& turned : rotated_guesses(SE3(), options.far_off_angle)) guesses.push_back(turned);
+    alignment = tracker.align_best(reference, pyramid, guesses, {});
+  } else {
+    alignment = tracker.align(reference, pyramid, SE3(), {}, 2, 0);
+  }
   made.anchor = alignment;
   const bool good = alignment.finished && alignment.inlier_share >= options.min_inliers &&
                     alignment.coverage >= options.min_coverage && alignment.rmse <= options.max_rmse &&
@@ -79,14 +154,14 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const FramePyramid& pyramid, 
   MapAnchor& anchor = keyframe.anchor;
   anchor.T_world_view = keyframe.T_world_camera;
   anchor.points = make_window_points(pyramid.cameras.front(), gradients, view, anchor.T_world_view,
-                                     options_.window_points.anchor_points, anchor_selector_, options_.window_points,
-                                     options_.plane);
+                                     static_cast<int>(made.point_share * options_.window_points.anchor_points),
+                                     anchor_selector_, options_.window_points, options_.plane, DepthUse::fixed);
   // Relative brightness of the image against the rendered one is (a_k - a_m, b_k - e^(a_k - a_m) b_m): solved for the
   // map's a_m and b_m.
   anchor.brightness.a = keyframe.brightness.a - alignment.brightness.a;
   anchor.brightness.b = (keyframe.brightness.b - alignment.brightness.b) * std::exp(-alignment.brightness.a);
   const double ratio = options.noise / std::max(options.noise, alignment.rmse);
-  anchor.weight = options.strength * ratio * ratio;
+  anchor.weight = options.strength * ratio * ratio * made.point_share;
   made.T_world_camera_map = anchor.T_world_view * alignment.T_target_host.inverse();
   made.map_flow = keyframe_score(reference, alignment, 0.0, {}).full_flow;
   made.anchored = !anchor.points.empty();

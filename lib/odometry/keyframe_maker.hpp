@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "odosplat/map/map_view.hpp"
+#include "odosplat/odometry/immature_points.hpp"
 #include "odosplat/odometry/keyframe.hpp"
 #include "odosplat/odometry/tracker.hpp"
 #include "odosplat/odometry/window_points.hpp"
@@ -22,6 +23,7 @@ struct AnchorOptions {
   double max_rmse = 12.0 / 255;    // [grey]
   double render_again_flow = 2.0;  // [px] a keyframe that the map moves further is rendered from its new place
   double reset_flow = 4.0;         // [px] beyond, the rest of the window is believed to be wrong and is dropped
+  double far_off_angle = 0.04;     // [rad] of turned guesses, when the camera comes back into the map
 
   void check() const;
 };
@@ -31,17 +33,37 @@ struct KeyframeMakerOptions {
   ReferenceOptions reference;
   MapPlaneOptions plane;
   WindowPointOptions window_points;
+  ImmaturePointOptions immature;
   AnchorOptions anchor;
-  double smoothing = 0.8;  // [px] of all images before use, real and rendered; 0: none
-  int min_points = 100;    // with map depth, on full size; fewer make no keyframe
+  double smoothing = 0.8;      // [px] of all images before use, real and rendered; 0: none
+  double min_map_share = 0.5;  // of the image with map depth, below which the camera counts as outside: what is left of
+                               // the map lies at the image's rim and at the map's, where both are worst
+  double full_share = 0.8;     // of the image with map depth, from which on the window gets as many points as it wants
+  double hole = 0.015;         // of width + height: holes at least this wide in the map's depth are borders of the map
+  double border = 0.04;  // of width + height: how near to them depth is not used. Gaussians at the border were seen
+                         // from few sides and stick out
+  int min_points = 100;  // with depth, on full size, the map's or other keyframes'; fewer make no keyframe
 
   void check() const;
 };
 
+/// What is known beside the image and the map.
+struct KeyframeContext {
+  bool first = false;         // there is no other keyframe to search in
+  int other_points = 0;       // estimated points of other keyframes that this image sees; they count towards min_points
+  bool distrust_map = false;  // the camera has been outside the map: where the map was rendered from may be far off, so
+                              // that its depth is used only if the rendered image is found in the real one
+};
+
 /// What came of the attempt to make a keyframe.
 struct MadeKeyframe {
-  std::shared_ptr<Keyframe> keyframe;  // null: the map shows too little there
-  double map_share = 0.0;              // share of the image with map depth
+  std::shared_ptr<Keyframe> keyframe;    // null: too little depth there. Its reference has the map's points alone
+  TrackingReference reference;           // the keyframe's, for the caller to complete and to give to it
+  std::vector<GradientImage> gradients;  // of the image, full size first
+  bool in_map = false;                   // the map alone shows enough, and is believed
+  bool verifiable = false;               // the map has colours to be compared with the image
+  double point_share = 0.0;              // of the window's points wanted that the map is asked for
+  double map_share = 0.0;                // share of the image with map depth
   bool anchored = false;
   Alignment anchor;        // of the keyframe's image against the rendered one
   SE3 T_world_camera_map;  // where that alignment puts the camera, if anchored
@@ -57,18 +79,22 @@ class KeyframeMaker {
   /// view must have been rendered with the pyramid's camera from T_world_camera. The keyframe's pose and brightness are
   /// as given; id, frame and time are left to the caller. tracker aligns image and rendered view.
   MadeKeyframe make(const FramePyramid& pyramid, const ViewImages& view, const SE3& T_world_camera,
-                    const Brightness& brightness, const Tracker& tracker);
+                    const Brightness& brightness, const Tracker& tracker, const KeyframeContext& context = {});
 
   const KeyframeMakerOptions& options() const { return options_; }
 
  private:
-  void add_anchor(MadeKeyframe& made, const FramePyramid& pyramid, const ViewImages& view, const Tracker& tracker);
+  void add_anchor(MadeKeyframe& made, const FramePyramid& pyramid, const ViewImages& view, const Tracker& tracker,
+                  bool far_off);
+  ViewImages without_border(const ViewImages& view, double share) const;
+  void add_points(MadeKeyframe& made, const FramePyramid& pyramid, const ViewImages& view, bool first);
 
   KeyframeMakerOptions options_;
   PixelSelector reference_selector_;
   PixelSelector window_selector_;
   PixelSelector map_reference_selector_;
   PixelSelector anchor_selector_;
+  PixelSelector immature_selector_;
 };
 
 }  // namespace odosplat

@@ -27,6 +27,16 @@ bool KeyframeThread::request(KeyframeRequest request) {
   return true;
 }
 
+void KeyframeThread::observe(TrackedImage image) {
+  constexpr std::size_t most = 16;
+  {
+    const std::lock_guard lock(mutex_);
+    observed_.push_back(std::move(image));
+    if (observed_.size() > most) observed_.pop_front();
+  }
+  wake_.notify_one();
+}
+
 void KeyframeThread::prefetch(const SE3& T_world_camera) {
   {
     const std::lock_guard lock(mutex_);
@@ -54,28 +64,30 @@ std::optional<FinishedKeyframe> KeyframeThread::take_locked() {
 void KeyframeThread::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    wake_.wait(lock, [this] { return stop_ || waiting_ || predicted_; });
+    wake_.wait(lock, [this] { return stop_ || waiting_ || predicted_ || !observed_.empty(); });
     if (stop_) return;
     std::optional<KeyframeRequest> request = std::exchange(waiting_, std::nullopt);
     const std::optional<SE3> predicted = std::exchange(predicted_, std::nullopt);
+    const std::deque<TrackedImage> observed = std::exchange(observed_, {});
     making_ = request.has_value();
-    rendering_ = !making_;
+    busy_ = !making_;
     lock.unlock();
     std::optional<FinishedKeyframe> finished;
     std::exception_ptr failure;
     try {
+      for (const TrackedImage& image : observed) backend_.trace(image);
       if (request) {
         request->id = made_;
         finished = FinishedKeyframe{*request, backend_.add(*request), backend_.stages()};
         if (finished->outcome.made) ++made_;
-      } else {
+      } else if (predicted) {
         backend_.prefetch(*predicted);
       }
     } catch (...) {
       failure = std::current_exception();
     }
     lock.lock();
-    making_ = rendering_ = false;
+    making_ = busy_ = false;
     if (finished) finished_ = std::move(finished);
     if (failure) failure_ = failure;
     rest_.notify_all();

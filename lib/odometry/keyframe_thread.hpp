@@ -3,6 +3,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -37,6 +38,10 @@ class KeyframeThread {
   /// changed, if one is in the making or waits to be taken. Keyframes are numbered by this thread.
   bool request(KeyframeRequest request);
 
+  /// Hands on a tracked frame for KeyframeBackend::trace, which a keyframe asked for later will have seen. Of those
+  /// that the back end has no time for, the oldest are dropped.
+  void observe(TrackedImage image);
+
   /// Asks for the map to be rendered where the next keyframe will probably be.
   void prefetch(const SE3& T_world_camera);
 
@@ -49,7 +54,7 @@ class KeyframeThread {
 
  private:
   void run();
-  bool idle() const { return !making_ && !rendering_ && !waiting_ && !predicted_; }
+  bool idle() const { return !making_ && !busy_ && !waiting_ && !predicted_ && observed_.empty(); }
   std::optional<FinishedKeyframe> take_locked();
 
   KeyframeBackend& backend_;
@@ -59,10 +64,11 @@ class KeyframeThread {
   std::condition_variable rest_;  // something is done
   std::optional<KeyframeRequest> waiting_;
   std::optional<SE3> predicted_;
+  std::deque<TrackedImage> observed_;
   std::optional<FinishedKeyframe> finished_;
   std::exception_ptr failure_;
   bool making_ = false;
-  bool rendering_ = false;
+  bool busy_ = false;  // with something else
   bool stop_ = false;
   std::thread thread_;  // last: it uses all of the above
 };

@@ -28,6 +28,8 @@ void OdometryOptions::check() const {
   policy.check();
   window.check();
   optimizer.check();
+  marginalisation.check();
+  activation.check();
   accept.check();
   require(frame_covariance_factor > 0.0, "frame_covariance_factor", "positive");
   require(keyframe_covariance_factor > 0.0, "keyframe_covariance_factor", "positive");
@@ -51,7 +53,8 @@ Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& op
       options_(options),
       T_world_camera_start_(T_world_camera_start),
       front_({options.tracker, options.policy, options.accept}),
-      backend_(camera, map, front_.aligner(), {options.keyframe, options.window, options.optimizer}) {
+      backend_(camera, map, front_.aligner(),
+               {options.keyframe, options.window, options.optimizer, options.marginalisation, options.activation}) {
   camera_.check();
   options_.check();
   require(T_world_camera_start.is_finite(), "start pose", "finite");
@@ -95,6 +98,7 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
   }
   result.map_share = map_share_;
   result.map_correlation = map_correlation_;
+  result.in_map = in_map_ && result.status != TrackStatus::lost;
   if (result.status == TrackStatus::lost) {
     result.T_world_camera = SE3();
     front_.lose();
@@ -131,6 +135,12 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
   record_.add_frame(request.time, frame.keyframe, frame.T_keyframe_camera, frame.was_lost);
   request.T_world_camera = frame.T_world_camera;
   request.brightness = frame.brightness;
+  const TrackedImage tracked{request.pyramid, frame.T_world_camera, frame.brightness};
+  if (thread_ != nullptr) {
+    thread_->observe(tracked);
+  } else {
+    backend_.trace(tracked);
+  }
   if (frame.keyframe_due()) {
     make_keyframe(request, result);
     if (result.keyframe && map_contradicts()) relocalise(image, request, result, result.T_world_camera);
@@ -223,6 +233,7 @@ void Odometry::take_over(const KeyframeRequest& request, const KeyframeOutcome& 
   map_correlation_ = outcome.map_correlation;
   rendered_ahead_ = false;
   if (!outcome.made) return;
+  in_map_ = outcome.in_map;
   const ReferenceFrame& keyframe = outcome.window.back();
   record_.add_keyframe(request.time, keyframe.T_world_camera, request.fresh);
   for (const ReferenceFrame& k : outcome.window) record_.move_keyframe(k.id, k.T_world_camera);

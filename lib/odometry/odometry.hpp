@@ -24,6 +24,8 @@ struct OdometryOptions {
   KeyframePolicyOptions policy;
   WindowOptions window;
   WindowOptimizerOptions optimizer;
+  MarginalisationOptions marginalisation;
+  ActivationOptions activation;
   AcceptOptions accept;
   /// Neighbouring pixels err alike, and a map's colours are off by parts of a pixel for a whole view; normal equations
   /// know nothing of either. A frame's covariance is that of its alignment with its keyframe times the first, plus its
@@ -59,13 +61,14 @@ struct TrackResult {
   double correlation = 0.0;      // of the image with the reference keyframe at its points, -1..1
   double map_correlation = 0.0;  // the same with the map's rendered view, of the last that was tried as keyframe
   double map_share = 0.0;        // share of the image where the map has depth, of the last that was tried as keyframe
+  bool in_map = false;           // the last keyframe has its depth from the map; false: plain odometry beyond it
   bool anchored = false;         // a keyframe that the map's colours hold in place
   double milliseconds = 0.0;
 };
 
 /// Sums over all images so far.
 struct OdometryStatistics {
-  std::vector<StageTime> stages;  // pyramid, track, relocalise, render, keyframe, optimise
+  std::vector<StageTime> stages;  // pyramid, track, relocalise, render, keyframe, optimise, trace
   int frames = 0;
   int posed = 0;
   int lost = 0;
@@ -79,10 +82,11 @@ struct OdometryStatistics {
 /// Source: the paper's local odometry (direct tracking against the last keyframe, sliding window of keyframes, depth of
 /// keyframe points rendered from the map); Engel et al. 2018 (DSO) for selection, residuals and keyframe rule. Differs:
 /// points keep to the map's planes when their keyframe moves, and every keyframe is also aligned with the map's
-/// rendered image, which removes drift; no intrinsics are estimated; no null space is projected out. Images must come
-/// in order of time. Never prints, reads no files. Not thread safe; uses parallel_for inside, with the same bits for
-/// any number of threads. With options.background the map belongs to a thread of the odometry's own, from construction
-/// until finish() or destruction, and what the map throws there comes out of a later call of track() or of finish().
+/// rendered image, which removes drift; no intrinsics are estimated; no null space is projected out. Where the map
+/// shows nothing, points are found by motion and the camera goes on as in plain odometry. Images must come in order of
+/// time. Never prints, reads no files. Not thread safe; uses parallel_for inside, with the same bits for any number of
+/// threads. With options.background the map belongs to a thread of the odometry's own, from construction until finish()
+/// or destruction, and what the map throws there comes out of a later call of track() or of finish().
 class Odometry {
  public:
   /// map must outlive this. T_world_camera_start: the camera's pose at the first image. Throws InputError on bad
@@ -140,6 +144,7 @@ class Odometry {
   OdometryStatistics counts_;  // without stages
   double map_share_ = 0.0;     // of the last image that was tried as keyframe
   double map_correlation_ = 0.0;
+  bool in_map_ = false;  // of the last keyframe
   bool rendered_ahead_ = false;
   Relocalizer* relocalizer_ = nullptr;
   int lost_in_a_row_ = 0;                   // images that show something

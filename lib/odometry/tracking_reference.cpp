@@ -8,12 +8,64 @@
 #include "odosplat/core/error.hpp"
 
 namespace odosplat {
+namespace {
+
+ReferencePoint make_point(const Camera& camera, const GradientImage& gradient, const cv::Point& pixel, double q,
+                          double sigma, float c2) {
+  const Eigen::Vector3d p = camera.ray(pixel.x, pixel.y) / q;
+  const float* g = gradient.ptr<float>(pixel.y) + 4 * pixel.x;
+  const Eigen::Matrix<double, 2, 6> J = projection_jacobian(camera, p);
+  ReferencePoint out{};
+  out.x = static_cast<float>(p.x());
+  out.y = static_cast<float>(p.y());
+  out.z = static_cast<float>(p.z());
+  out.intensity = g[0];
+  out.weight = c2 / (c2 + g[3]);
+  out.u = static_cast<float>(pixel.x);
+  out.v = static_cast<float>(pixel.y);
+  out.inverse_sigma = static_cast<float>(1.0 / sigma);
+  for (int k = 0; k < 6; ++k) out.jacobian[k] = static_cast<float>(g[1] * J(0, k) + g[2] * J(1, k));
+  out.jacobian[6] = -g[0];
+  out.jacobian[7] = -1.0F;
+  return out;
+}
+
+/// Mean inverse depth of the points that fall on each pixel of a level, 0 where none does; one pixel wider than they
+/// are.
+cv::Mat1f splat(const cv::Size& size, int level, std::span<const ProjectedPoint> projected) {
+  cv::Mat1f sum(size, 0.0F);
+  cv::Mat1f count(size, 0.0F);
+  for (const ProjectedPoint& p : projected) {
+    const int x = static_cast<int>(p.u + 0.5F) >> level;
+    const int y = static_cast<int>(p.v + 0.5F) >> level;
+    if (x < 1 || y < 1 || x >= size.width - 1 || y >= size.height - 1) continue;
+    sum(y, x) += p.q;
+    count(y, x) += 1.0F;
+  }
+  cv::Mat1f q(size, 0.0F);
+  for (int y = 1; y < size.height - 1; ++y) {
+    for (int x = 1; x < size.width - 1; ++x) {
+      float s = sum(y, x);
+      float n = count(y, x);
+      if (!(n > 0.0F)) {
+        s = sum(y - 1, x) + sum(y + 1, x) + sum(y, x - 1) + sum(y, x + 1);
+        n = count(y - 1, x) + count(y + 1, x) + count(y, x - 1) + count(y, x + 1);
+      }
+      if (n > 0.0F) q(y, x) = s / n;
+    }
+  }
+  return q;
+}
+
+}  // namespace
 
 void ReferenceOptions::check() const {
   require(points >= 50, "reference.points", "at least 50");
   require(level_share > 0.0 && level_share <= 1.0, "reference.level_share", "in (0, 1]");
   require(min_points >= 10, "reference.min_points", "at least 10");
   require(gradient_weight > 0.0, "reference.gradient_weight", "positive");
+  require(min_gradient >= 0.0, "reference.min_gradient", "at least 0");
+  require(projected_sigma > 0.0, "reference.projected_sigma", "positive");
 }
 
 int ReferenceOptions::wanted(const Camera& camera) const {
@@ -64,25 +116,30 @@ TrackingReference build_reference(const FramePyramid& pyramid, std::span<const G
       // The fitted plane's depth on this level's own ray: level 0 pixels lie up to half a pixel beside it.
       const double q = surface->edge ? surface->inverse_depth : surface->m_camera.dot(ray);
       if (!(q > 0.0)) continue;
-      const Eigen::Vector3d p = ray / q;
-      const float* g = gradient.ptr<float>(pixel.y) + 4 * pixel.x;
-      const Eigen::Matrix<double, 2, 6> J = projection_jacobian(camera, p);
-      ReferencePoint out{};
-      out.x = static_cast<float>(p.x());
-      out.y = static_cast<float>(p.y());
-      out.z = static_cast<float>(p.z());
-      out.intensity = g[0];
-      out.weight = c2 / (c2 + g[3]);
-      out.u = static_cast<float>(pixel.x);
-      out.v = static_cast<float>(pixel.y);
-      out.inverse_sigma = static_cast<float>(1.0 / surface->sigma);
-      for (int k = 0; k < 6; ++k) out.jacobian[k] = static_cast<float>(g[1] * J(0, k) + g[2] * J(1, k));
-      out.jacobian[6] = -g[0];
-      out.jacobian[7] = -1.0F;
-      points.push_back(out);
+      points.push_back(make_point(camera, gradient, pixel, q, surface->sigma, c2));
     }
   }
   return reference;
+}
+
+void add_projected_points(TrackingReference& reference, std::span<const GradientImage> gradients,
+                          std::span<const ProjectedPoint> projected, const ReferenceOptions& options) {
+  if (projected.empty()) return;
+  const float c2 = static_cast<float>(options.gradient_weight * options.gradient_weight);
+  const float least = static_cast<float>(options.min_gradient * options.min_gradient);
+  for (std::size_t level = 0; level < reference.levels.size(); ++level) {
+    const GradientImage& gradient = gradients[level];
+    cv::Mat1f inverse_depth = splat(gradient.size(), static_cast<int>(level), projected);
+    auto& points = reference.levels[level];
+    for (const ReferencePoint& p : points) inverse_depth(static_cast<int>(p.v), static_cast<int>(p.u)) = 0.0F;
+    for (int y = 1; y < inverse_depth.rows - 1; ++y) {
+      for (int x = 1; x < inverse_depth.cols - 1; ++x) {
+        const double q = inverse_depth(y, x);
+        if (!(q > 0.0) || gradient.ptr<float>(y)[4 * x + 3] < least) continue;
+        points.push_back(make_point(reference.cameras[level], gradient, {x, y}, q, options.projected_sigma * q, c2));
+      }
+    }
+  }
 }
 
 }  // namespace odosplat

@@ -38,10 +38,18 @@ struct ReferenceOptions {
   double level_share = 0.6;             // points wanted a level up, as a share of the level below
   int min_points = 250;                 // wanted on any level
   double gradient_weight = 50.0 / 255;  // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2)
+  double min_gradient = 5.0 / 255;      // [grey/px] of a pixel whose depth comes from another keyframe's point
+  double projected_sigma = 0.05;        // relative standard deviation that is assumed of its inverse depth
 
   void check() const;
   /// Points wanted on level 0 of this camera.
   int wanted(const Camera& camera) const;
+};
+
+/// A point of another image, where it falls in this one.
+struct ProjectedPoint {
+  float u, v;  // [px] on level 0
+  float q;     // [1/m] inverse depth here
 };
 
 /// d pi(exp(xi) p) / d xi at xi = 0, rows u and v [px], columns translation and rotation.
@@ -53,5 +61,11 @@ Eigen::Matrix<double, 2, 6> projection_jacobian(const Camera& camera, const Eige
 TrackingReference build_reference(const FramePyramid& pyramid, std::span<const GradientImage> gradients,
                                   const ViewImages& view, PixelSelector& selector, const ReferenceOptions& options,
                                   const MapPlaneOptions& plane_options);
+
+/// Adds pixels whose depth is known from points of other keyframes: on every level those that a point falls on, and
+/// their neighbours, as far as they have some gradient and are not in the reference already. Where several points fall
+/// on one pixel their inverse depths are averaged. Source: DSO's coarse tracking reference.
+void add_projected_points(TrackingReference& reference, std::span<const GradientImage> gradients,
+                          std::span<const ProjectedPoint> projected, const ReferenceOptions& options);
 
 }  // namespace odosplat

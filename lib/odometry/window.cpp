@@ -13,21 +13,28 @@ double distance(const Keyframe& a, const Keyframe& b) {
   return (a.T_world_camera.translation() - b.T_world_camera.translation()).norm();
 }
 
-/// Share of the host's points that project into the other keyframe's image.
+/// Share of the host's points, immature ones that were found included, that project into the other keyframe's image.
 double visible_share(const Keyframe& host, const Keyframe& other, const Camera& camera) {
-  if (host.points.empty()) return 0.0;
-  const SE3 T_other_world = other.T_world_camera.inverse();
+  const SE3 T_other_host = other.T_world_camera.inverse() * host.T_world_camera;
   int seen = 0;
-  for (const WindowPoint& point : host.points) {
-    const Eigen::Vector3d ray = camera.ray(point.u, point.v);
-    const double q = plane_in_camera(point.plane_world, host.T_world_camera).dot(ray);
-    if (!(q > 0.0)) continue;
-    const Eigen::Vector3d p = T_other_world * (host.T_world_camera * (ray / q));
-    if (!(p.z() > 0.0)) continue;
+  int all = 0;
+  const auto count = [&](double u, double v, double q) {
+    ++all;
+    if (!(q > 0.0)) return;
+    const Eigen::Vector3d p = T_other_host * (camera.ray(u, v) / q);
+    if (!(p.z() > 0.0)) return;
     const Eigen::Vector2d uv = camera.project(p);
     if (uv.x() >= 0 && uv.y() >= 0 && uv.x() <= camera.width - 1 && uv.y() <= camera.height - 1) ++seen;
+  };
+  for (const WindowPoint& point : host.points) {
+    count(point.u, point.v, inverse_depth(point, camera, host.T_world_camera));
   }
-  return static_cast<double>(seen) / static_cast<double>(host.points.size());
+  for (const ImmaturePoint& point : host.immature) {
+    if (point.found > 0) count(point.u, point.v, 0.5 * (point.min_q + point.max_q));
+  }
+  // A keyframe whose points are all still to be found is not to go for that.
+  if (all == 0) return host.immature.empty() ? 0.0 : 1.0;
+  return static_cast<double>(seen) / all;
 }
 
 }  // namespace
@@ -35,6 +42,17 @@ double visible_share(const Keyframe& host, const Keyframe& other, const Camera& 
 void WindowOptions::check() const {
   require(max_keyframes >= 3 && max_keyframes <= 20, "window.max_keyframes", "3 to 20");
   require(min_visible >= 0.0 && min_visible < 1.0, "window.min_visible", "in [0, 1)");
+}
+
+void translate(Window& window, const Eigen::Vector3d& by) {
+  const auto moved = [&by](const SE3& T) { return SE3(T.rotation(), T.translation() + by); };
+  for (const auto& keyframe : window.keyframes) {
+    keyframe->T_world_camera = moved(keyframe->T_world_camera);
+    keyframe->anchor.T_world_view = moved(keyframe->anchor.T_world_view);
+    for (WindowPoint& point : keyframe->points) point.plane_world.D += point.plane_world.N.dot(by);
+    for (WindowPoint& point : keyframe->anchor.points) point.plane_world.D += point.plane_world.N.dot(by);
+  }
+  translate(window.prior, by);
 }
 
 int keyframe_to_drop(const Window& window, const Camera& camera, const WindowOptions& options) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "odosplat/odometry/keyframe.hpp"
+#include "odosplat/odometry/marginal_prior.hpp"
 
 namespace odosplat {
 
@@ -16,10 +17,14 @@ struct WindowOptions {
   void check() const;
 };
 
-/// The keyframes that are adjusted together, oldest first.
+/// The keyframes that are adjusted together, oldest first, and what is known from those that have left.
 struct Window {
   std::vector<std::shared_ptr<Keyframe>> keyframes;
+  MarginalPrior prior;  // of some of the keyframes
 };
+
+/// The window moved as a whole: p_new = p + by.
+void translate(Window& window, const Eigen::Vector3d& by);
 
 /// Index of the keyframe that should leave before another is added, or -1 while there is room. The two newest stay.
 /// Source: DSO, section 3.1: first one that the newest hardly sees; else the one of the largest distance score

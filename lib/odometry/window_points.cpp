@@ -2,9 +2,37 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/odometry/window_points.hpp"
 
+#include <array>
+#include <utility>
+
 #include "odosplat/core/error.hpp"
 
 namespace odosplat {
+namespace {
+
+constexpr std::array<std::pair<const char*, DepthUse>, 6> words = {{{"fixed", DepthUse::fixed},
+                                                                    {"pose_aware", DepthUse::pose_aware},
+                                                                    {"prior", DepthUse::prior},
+                                                                    {"pose_aware_prior", DepthUse::pose_aware_prior},
+                                                                    {"free", DepthUse::free},
+                                                                    {"interval", DepthUse::interval}}};
+
+}  // namespace
+
+DepthUse depth_use(const std::string& word) {
+  for (const auto& [name, use] : words) {
+    if (word == name) return use;
+  }
+  throw InputError("depth use",
+                   "must be fixed, pose_aware, prior, pose_aware_prior, free or interval, is \"" + word + "\"");
+}
+
+std::string to_string(DepthUse use) {
+  for (const auto& [name, value] : words) {
+    if (value == use) return name;
+  }
+  return "";
+}
 
 void WindowPointOptions::check() const {
   require(points >= 10, "window_points.points", "at least 10");
@@ -16,7 +44,7 @@ void WindowPointOptions::check() const {
 std::vector<WindowPoint> make_window_points(const Camera& camera, std::span<const GradientImage> gradients,
                                             const ViewImages& view, const SE3& T_world_host, int wanted,
                                             PixelSelector& selector, const WindowPointOptions& options,
-                                            const MapPlaneOptions& plane_options) {
+                                            const MapPlaneOptions& plane_options, DepthUse use) {
   std::vector<WindowPoint> points;
   if (view.depth.empty() || gradients.empty()) return points;
   const GradientImage& gradient = gradients[0];
@@ -38,6 +66,11 @@ std::vector<WindowPoint> make_window_points(const Camera& camera, std::span<cons
     point.plane_world = world_plane(surface->m_camera, T_world_host);
     point.m_host = surface->m_camera;
     point.sigma = surface->sigma;
+    point.plane_in_world = use == DepthUse::pose_aware || use == DepthUse::pose_aware_prior;
+    point.estimated = use != DepthUse::pose_aware && use != DepthUse::fixed;
+    if (use == DepthUse::prior || use == DepthUse::pose_aware_prior) {
+      point.prior_information = 1.0 / (surface->sigma * surface->sigma);
+    }
     for (std::size_t k = 0; k < pattern_size; ++k) {
       const float* g = gradient.ptr<float>(pixel.y + pattern[k][1]) + 4 * (pixel.x + pattern[k][0]);
       point.intensity[k] = g[0];

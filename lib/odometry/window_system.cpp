@@ -2,48 +2,141 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/odometry/window_system.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "odosplat/core/parallel.hpp"
 
 namespace odosplat {
+namespace {
+
+bool estimates_depth(const Keyframe& keyframe) {
+  return std::any_of(keyframe.points.begin(), keyframe.points.end(), [](const WindowPoint& p) { return p.estimated; });
+}
+
+/// Gathers one host's offsets from its pairs. pair_of(target) gives the terms of that pair.
+template <typename PairOf>
+void gather_depths(const Keyframe& host, std::size_t host_index, std::size_t n, const std::vector<double>& offsets,
+                   const PairOf& terms_of, HostDepths& depths, std::vector<std::pair<int, int>>& counts,
+                   double& prior_cost) {
+  for (std::size_t i = 0; i < host.points.size(); ++i) {
+    if (host.points[i].estimated) depths.points.push_back(i);
+  }
+  const auto size = static_cast<Eigen::Index>(depths.points.size());
+  depths.H = Eigen::VectorXd::Zero(size);
+  depths.g = Eigen::VectorXd::Zero(size);
+  depths.cross = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(8 * n), size);
+  counts.assign(depths.points.size(), {0, 0});
+  const auto h = static_cast<Eigen::Index>(8 * host_index);
+  for (Eigen::Index column = 0; column < size; ++column) {
+    const std::size_t i = depths.points[static_cast<std::size_t>(column)];
+    const double information = host.points[i].prior_information;
+    depths.H[column] = information;
+    depths.g[column] = information * offsets[i];
+    prior_cost += 0.5 * information * offsets[i] * offsets[i];
+    auto& [agreeing, contradicting] = counts[static_cast<std::size_t>(column)];
+    for (std::size_t target = 0; target < n; ++target) {
+      if (target == host_index) continue;
+      const DepthTerms& terms = terms_of(target)[i];
+      contradicting += terms.outlier ? 1 : 0;
+      if (!terms.inlier) continue;
+      ++agreeing;
+      depths.H[column] += terms.H;
+      depths.g[column] += terms.g;
+      depths.cross.col(column).segment<8>(h) += terms.cross.head<8>().cast<double>();
+      depths.cross.col(column).segment<8>(static_cast<Eigen::Index>(8 * target)) +=
+          terms.cross.tail<8>().cast<double>();
+    }
+  }
+}
+
+}  // namespace
 
 WindowState window_state(const Window& window) {
   WindowState state;
   for (const auto& keyframe : window.keyframes) {
-    state.poses.push_back(keyframe->T_world_camera);
+    const int fixed = window.prior.find(keyframe.get());
+    const SE3& T = keyframe->T_world_camera;
+    state.poses.push_back(
+        {T, fixed >= 0 ? window.prior.frames[static_cast<std::size_t>(fixed)].T_linearised : T, fixed >= 0});
     state.brightness.push_back(keyframe->brightness);
     state.anchors.push_back(keyframe->anchor.brightness);
+    state.offsets.emplace_back();
+    if (!estimates_depth(*keyframe)) continue;
+    for (const WindowPoint& point : keyframe->points) state.offsets.back().push_back(point.offset);
   }
   return state;
 }
 
 WindowSystem evaluate_window(const Window& window, const WindowState& state, const Camera& camera,
-                             const PhotometricOptions& options) {
+                             const PhotometricOptions& options, int only) {
   const std::size_t n = window.keyframes.size();
+  // Hosts first: rendered views behind the keyframes.
+  std::vector<std::vector<HostPoint>> hosts(2 * n);
   std::vector<PhotometricPair> tasks;
+  std::vector<std::vector<DepthTerms>> terms(n * n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Keyframe& host = *window.keyframes[k];
+    const SE3& T_view = host.anchor.T_world_view;
+    hosts[k] = make_host_points(host.points, state.offsets[k], camera, state.poses[k]);
+    hosts[n + k] = make_host_points(host.anchor.points, {}, camera, {T_view, T_view, false});
+  }
   for (std::size_t host = 0; host < n; ++host) {
     for (std::size_t target = 0; target < n; ++target) {
       if (target == host) continue;
-      tasks.push_back({&window.keyframes[host]->points, &window.keyframes[target]->gradient, camera, state.poses[host],
-                       state.poses[target], state.brightness[host], state.brightness[target], 1.0});
+      tasks.push_back({window.keyframes[host]->points, hosts[host], &window.keyframes[target]->gradient, camera,
+                       state.poses[host], state.poses[target], state.brightness[host], state.brightness[target], 1.0});
     }
   }
   for (std::size_t k = 0; k < n; ++k) {
     const MapAnchor& anchor = window.keyframes[k]->anchor;
-    tasks.push_back({&anchor.points, &window.keyframes[k]->gradient, camera, anchor.T_world_view, state.poses[k],
-                     state.anchors[k], state.brightness[k], anchor.weight});
+    tasks.push_back({anchor.points,
+                     hosts[n + k],
+                     &window.keyframes[k]->gradient,
+                     camera,
+                     {anchor.T_world_view, anchor.T_world_view, false},
+                     state.poses[k],
+                     state.anchors[k],
+                     state.brightness[k],
+                     anchor.weight});
   }
   std::vector<PairSystem> results(tasks.size());
   parallel_for(static_cast<int>(tasks.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const auto task = static_cast<std::size_t>(i);
-      if (!tasks[task].points->empty()) results[task] = evaluate_pair(tasks[task], options);
+      const bool anchor = task >= n * (n - 1);
+      const std::size_t host = anchor ? task - n * (n - 1) : task / (n - 1);
+      const std::size_t target = anchor ? host : task % (n - 1) + (task % (n - 1) >= host ? 1 : 0);
+      const bool wanted =
+          only < 0 || host == static_cast<std::size_t>(only) || target == static_cast<std::size_t>(only);
+      std::span<DepthTerms> of_pair;
+      if (!anchor && !state.offsets[host].empty()) {
+        terms[host * n + target].resize(tasks[task].points.size());
+        of_pair = terms[host * n + target];
+      }
+      if (!wanted || tasks[task].points.empty()) continue;
+      results[task] = evaluate_pair(tasks[task], options, of_pair);
     }
   });
 
   WindowSystem system;
+  system.depths.resize(n);
+  system.counts.resize(n);
+  std::vector<double> prior_costs(n, 0.0);
+  parallel_for(static_cast<int>(n), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const auto host = static_cast<std::size_t>(i);
+      if (state.offsets[host].empty()) continue;
+      gather_depths(
+          *window.keyframes[host], host, n, state.offsets[host],
+          [&](std::size_t target) -> const std::vector<DepthTerms>& { return terms[host * n + target]; },
+          system.depths[host], system.counts[host], prior_costs[host]);
+    }
+  });
   const auto size = static_cast<Eigen::Index>(10 * n);
   system.H = Eigen::MatrixXd::Zero(size, size);
   system.g = Eigen::VectorXd::Zero(size);
+  for (const double cost : prior_costs) system.cost += cost;
   std::size_t task = 0;
   for (std::size_t host = 0; host < n; ++host) {
     for (std::size_t target = 0; target < n; ++target) {
@@ -76,6 +169,70 @@ WindowSystem evaluate_window(const Window& window, const WindowState& state, con
     system.anchors.push_back(pair);
   }
   return system;
+}
+
+void add_marginal_prior(const Window& window, const WindowState& state, WindowSystem& system) {
+  const MarginalPrior& prior = window.prior;
+  const std::size_t m = prior.frames.size();
+  if (m == 0) return;
+  std::vector<Eigen::Index> columns;
+  Eigen::VectorXd x(static_cast<Eigen::Index>(8 * m));
+  for (std::size_t i = 0; i < m; ++i) {
+    const auto found = std::find(window.keyframes.begin(), window.keyframes.end(), prior.frames[i].keyframe);
+    const auto k = static_cast<std::size_t>(found - window.keyframes.begin());
+    for (Eigen::Index c = 0; c < 8; ++c) columns.push_back(static_cast<Eigen::Index>(8 * k) + c);
+    x.segment<8>(static_cast<Eigen::Index>(8 * i)) =
+        marginal_deviation(prior.frames[i], state.poses[k].T_world_camera, state.brightness[k]);
+  }
+  const Eigen::VectorXd Hx = prior.H * x;
+  system.H(columns, columns) += prior.H;
+  system.g(columns) += prior.g + Hx;
+  system.cost += prior.g.dot(x) + 0.5 * x.dot(Hx);
+}
+
+void reduce_system(const WindowSystem& system, double damping, Eigen::MatrixXd& H, Eigen::VectorXd& g) {
+  H = system.H;
+  g = system.g;
+  H.diagonal() *= 1.0 + damping;
+  std::vector<Eigen::MatrixXd> H_parts(system.depths.size());
+  std::vector<Eigen::VectorXd> g_parts(system.depths.size());
+  parallel_for(static_cast<int>(system.depths.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (system.depths[k].points.empty()) continue;
+      const Eigen::Index rows = system.depths[k].cross.rows();
+      H_parts[k] = Eigen::MatrixXd::Zero(rows, rows);
+      g_parts[k] = Eigen::VectorXd::Zero(rows);
+      eliminate_depths(system.depths[k], damping, H_parts[k], g_parts[k]);
+    }
+  });
+  for (std::size_t k = 0; k < H_parts.size(); ++k) {
+    if (H_parts[k].size() == 0) continue;
+    H.topLeftCorner(H_parts[k].rows(), H_parts[k].cols()) += H_parts[k];
+    g.head(g_parts[k].size()) += g_parts[k];
+  }
+}
+
+WindowState stepped(const WindowState& state, const WindowSystem& system, const Eigen::VectorXd& step, double damping) {
+  WindowState next = state;
+  const std::size_t n = state.poses.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto p = static_cast<Eigen::Index>(8 * k);
+    const auto a = static_cast<Eigen::Index>(8 * n + 2 * k);
+    PoseEstimate& pose = next.poses[k];
+    pose.T_world_camera = SE3::exp(step.segment<6>(p)) * pose.T_world_camera;
+    if (!pose.fixed) pose.T_linearised = pose.T_world_camera;
+    next.brightness[k].a += step[p + 6];
+    next.brightness[k].b += step[p + 7];
+    next.anchors[k].a += step[a];
+    next.anchors[k].b += step[a + 1];
+    if (system.depths[k].points.empty()) continue;
+    const Eigen::VectorXd change = depth_steps(system.depths[k], damping, step);
+    for (Eigen::Index i = 0; i < change.size(); ++i) {
+      next.offsets[k][system.depths[k].points[static_cast<std::size_t>(i)]] += change[i];
+    }
+  }
+  return next;
 }
 
 }  // namespace odosplat

@@ -6,32 +6,48 @@
 #include <vector>
 
 #include "odosplat/core/camera.hpp"
+#include "odosplat/odometry/depth_elimination.hpp"
 #include "odosplat/odometry/photometric_pair.hpp"
 #include "odosplat/odometry/window.hpp"
 
 namespace odosplat {
 
-/// Poses and brightness of a window at one moment of its adjustment.
+/// Everything that an adjustment of a window moves, at one moment of it.
 struct WindowState {
-  std::vector<SE3> poses;              // T_world_camera, a keyframe each
-  std::vector<Brightness> brightness;  // a keyframe each
-  std::vector<Brightness> anchors;     // a keyframe each, whether it has an anchor or not
+  std::vector<PoseEstimate> poses;           // a keyframe each
+  std::vector<Brightness> brightness;        // a keyframe each
+  std::vector<Brightness> anchors;           // a keyframe each, whether it has an anchor or not
+  std::vector<std::vector<double>> offsets;  // [1/m] of all points of a keyframe; none where nothing is estimated
 };
 
 /// Normal equations of a whole window. Parameters: for keyframe k at 8k its pose (6, left perturbation), a, b; then for
-/// keyframe k at 8n + 2k its anchor's a, b.
+/// keyframe k at 8n + 2k its anchor's a, b. Offsets stand beside, a host each.
 struct WindowSystem {
   Eigen::MatrixXd H;
   Eigen::VectorXd g;
   double cost = 0.0;
-  std::vector<PairSystem> pairs;    // host-major, n (n - 1) of them
-  std::vector<PairSystem> anchors;  // a keyframe each
+  std::vector<HostDepths> depths;                        // a keyframe each
+  std::vector<PairSystem> pairs;                         // host-major, n (n - 1) of them; H and g summed up already
+  std::vector<PairSystem> anchors;                       // a keyframe each
+  std::vector<std::vector<std::pair<int, int>>> counts;  // of a keyframe's estimated points: agreeing, contradicting
 };
 
+/// Poses are linearised where the window's prior says, others where they are.
 WindowState window_state(const Window& window);
 
-/// Sums the pairs of all keyframes and anchors at the state given. Priors are not in it.
+/// Sums the pairs of all keyframes and anchors at the state given, and the offsets' priors. Other priors are not in it.
+/// only: index of a keyframe, to leave out all pairs and anchors that it has no part in; -1: everything.
+/// Runs on several threads; sums in fixed order.
 WindowSystem evaluate_window(const Window& window, const WindowState& state, const Camera& camera,
-                             const PhotometricOptions& options);
+                             const PhotometricOptions& options, int only = -1);
+
+/// Adds the cost and derivatives of the window's marginal prior.
+void add_marginal_prior(const Window& window, const WindowState& state, WindowSystem& system);
+
+/// H + damping * diagonal(H) and g with the offsets eliminated, equally damped.
+void reduce_system(const WindowSystem& system, double damping, Eigen::MatrixXd& H, Eigen::VectorXd& g);
+
+/// The state after a step of the parameters above and the offsets' steps that belong to it.
+WindowState stepped(const WindowState& state, const WindowSystem& system, const Eigen::VectorXd& step, double damping);
 
 }  // namespace odosplat

@@ -41,6 +41,7 @@ ViewImages BoxRoom::render(const Camera& camera, const SE3& T_world_camera, cons
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       const double z = depth(camera, T_world_camera, x, y);
+      if ((T_world_camera * (z * camera.ray(x, y))).x() < mapped_from) continue;
       view.depth(y, x) = static_cast<float>(z * depth_factor);
       view.sigma(y, x) = 0.002F;
       if (!view.alpha.empty()) view.alpha(y, x) = 1.0F;

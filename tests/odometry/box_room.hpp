@@ -19,6 +19,7 @@ class BoxRoom : public MapView {
   bool with_color = true;
   double depth_factor = 1.0;  // of the rendered depth: a map of the wrong scale
   double gamma = 1.0;         // of the rendered colours: a map in other colours
+  double mapped_from = -1e9;  // [m] the map shows only what lies at x of at least this
   int renders = 0;
 
   ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override;

@@ -87,6 +87,45 @@ TEST_F(OdometryTest, FollowsThePathWithoutColours) {
   EXPECT_LT(ate(play(coloured, 90, without_anchor())), 0.004);
 }
 
+TEST_F(OdometryTest, EveryUseOfTheMapsDepthFollowsThePath) {
+  for (const DepthUse use :
+       {DepthUse::fixed, DepthUse::prior, DepthUse::pose_aware_prior, DepthUse::free, DepthUse::interval}) {
+    test::BoxRoom map;
+    OdometryOptions options;
+    options.keyframe.window_points.depth_use = use;
+    const Played run = play(map, 60, options);
+    EXPECT_EQ(run.statistics.lost, 0) << to_string(use);
+    EXPECT_LT(ate(run), 0.002) << to_string(use);
+  }
+}
+
+TEST_F(OdometryTest, GoesOnBeyondTheMapAndComesBackIntoIt) {
+  // The map shows the room's right half; the camera turns to the left, away from it, and back.
+  const auto path = [](int k) {
+    const double t = 2.0 * 3.14159265 * k / 200.0;
+    return SE3(so3_exp({0.05 * std::sin(2.0 * t), -0.5 * (1.0 - std::cos(t)), 0.0}),
+               {0.5 * std::sin(t), 0.15 * std::sin(2.0 * t), 0.3 * std::sin(t)});
+  };
+  test::BoxRoom map;
+  map.mapped_from = -0.4;
+  const Played run = play(map, 200, {}, {}, {}, path);
+  EXPECT_EQ(run.statistics.lost, 0);
+  EXPECT_TRUE(run.live.front().in_map);
+  int outside = 0;
+  for (int k = 0; k < 200; ++k) {
+    const TrackResult& result = run.live[static_cast<std::size_t>(k)];
+    outside += result.in_map ? 0 : 1;
+    const double error = (path(k).inverse() * result.T_world_camera).translation().norm();
+    EXPECT_LT(error, 0.06) << k;
+    if (k >= 190) {
+      EXPECT_TRUE(result.in_map) << k;
+      EXPECT_LT(error, 0.005) << k;
+    }
+  }
+  EXPECT_GT(outside, 30);
+  EXPECT_LT(run.live[100].map_share, 0.2);
+}
+
 TEST_F(OdometryTest, ScaleStays) {
   test::BoxRoom map;
   const Played run = play(map, 90, without_anchor());

@@ -42,6 +42,29 @@ class TrackerTest : public testing::Test {
   Tracker tracker_{{}};
 };
 
+TEST_F(TrackerTest, PointsOfOtherKeyframesAreEnoughToTrackBy) {
+  // A reference without any map depth: points as another keyframe would project them here, and their neighbours.
+  TrackingReference projected;
+  projected.cameras = host_.cameras;
+  projected.levels.resize(host_.gray.size());
+  std::vector<ProjectedPoint> seen;
+  for (int y = 8; y < camera_.height - 8; y += 4) {
+    for (int x = 8; x < camera_.width - 8; x += 4) {
+      const auto q = static_cast<float>(1.0 / room_.depth(camera_, T_world_host_, x, y));
+      seen.push_back({static_cast<float>(x) + 0.3F, static_cast<float>(y) - 0.2F, q});
+    }
+  }
+  add_projected_points(projected, gradients_, seen, {});
+  ASSERT_GT(projected.levels.front().size(), 500U);
+  const SE3 truth(so3_exp({0.01, -0.02, 0.015}), {0.03, 0.01, -0.02});
+  const Alignment found = tracker_.align(projected, seen_from(truth), SE3(), {}, 9, 0);
+  expect_pose(found, truth, 0.001, 0.0006);
+  // Pixels that are in the reference already are not added again.
+  const std::size_t before = projected.levels.front().size();
+  add_projected_points(projected, gradients_, seen, {});
+  EXPECT_EQ(projected.levels.front().size(), before);
+}
+
 TEST_F(TrackerTest, ProjectionJacobianMatchesCentralDifferences) {
   const Eigen::Vector3d p(0.3, -0.4, 1.7);
   const Eigen::MatrixXd numeric = test::central_differences(

@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <map>
 
 #include "box_room.hpp"
+#include "ceres_window.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/odometry/keyframe_maker.hpp"
+#include "odosplat/odometry/marginalisation.hpp"
 #include "odosplat/odometry/window_optimizer.hpp"
 
 namespace odosplat {
@@ -16,8 +19,10 @@ namespace {
 class WindowOptimizerTest : public testing::Test {
  protected:
   /// n keyframes on the room's path, six frames apart, at their true poses with true depth.
-  Window make_window(int n, bool anchored) {
+  Window make_window(int n, bool anchored, DepthUse use = DepthUse::pose_aware, int points = 350) {
     KeyframeMakerOptions options;
+    options.window_points.points = points;
+    options.window_points.depth_use = use;
     options.anchor.enabled = anchored;
     options.smoothing = 0.0;
     KeyframeMaker maker(options);
@@ -32,6 +37,30 @@ class WindowOptimizerTest : public testing::Test {
       window.keyframes.push_back(made.keyframe);
     }
     return window;
+  }
+
+  /// Estimated offsets off by some per cent of inverse depth.
+  static void disturb_depths(Window& window) {
+    Random random(9);
+    for (const auto& keyframe : window.keyframes) {
+      for (WindowPoint& point : keyframe->points) point.offset += random.uniform(-0.01, 0.01);
+    }
+  }
+
+  /// [1/m] root mean square error of inverse depth over the points that several keyframes agree with.
+  double depth_error(const Window& window) const {
+    double sum = 0.0;
+    int n = 0;
+    for (const auto& keyframe : window.keyframes) {
+      for (const WindowPoint& point : keyframe->points) {
+        if (point.agreeing < 2) continue;
+        const double truth = 1.0 / room_.depth(camera_, keyframe->T_world_camera, point.u, point.v);
+        sum += std::pow(inverse_depth(point, camera_, keyframe->T_world_camera) - truth, 2);
+        ++n;
+      }
+    }
+    EXPECT_GT(n, 200);
+    return std::sqrt(sum / std::max(1, n));
   }
 
   /// Poses off by some millimetres and tenths of a degree, as tracking leaves them.
@@ -156,19 +185,109 @@ TEST_F(WindowOptimizerTest, OneKeyframeWithoutAnchorStays) {
   EXPECT_EQ(optimizer_.optimize(empty, camera_).iterations, 0);
 }
 
-TEST_F(WindowOptimizerTest, SameBitsWithAnyNumberOfThreads) {
-  std::vector<Eigen::Matrix4d> poses;
-  const int before = threads();
-  for (const int n : {1, 2, 5}) {
-    set_threads(n);
-    Window window = make_window(4, true);
+TEST_F(WindowOptimizerTest, FindsDisturbedDepthsAndPoses) {
+  for (const DepthUse use : {DepthUse::free, DepthUse::prior, DepthUse::pose_aware_prior}) {
+    Window window = make_window(5, true, use);
     disturb(window, 0);
-    optimizer_.optimize(window, camera_);
-    poses.push_back(window.keyframes[2]->T_world_camera.matrix());
+    disturb_depths(window);
+    WindowOptimizerOptions options;
+    options.max_iterations = 15;
+    WindowOptimizer(options).optimize(window, camera_);
+    EXPECT_LT(largest_error(window), 0.002) << to_string(use);
+    EXPECT_LT(depth_error(window), 0.004) << to_string(use);
   }
-  set_threads(before);
-  EXPECT_EQ(poses[0], poses[1]);
-  EXPECT_EQ(poses[0], poses[2]);
+}
+
+TEST_F(WindowOptimizerTest, APriorHoldsDepthsWhereTheyAreNotSeen) {
+  // One keyframe: nothing but the prior says how far its points are.
+  Window window = make_window(1, true, DepthUse::prior);
+  disturb_depths(window);
+  optimizer_.optimize(window, camera_);
+  for (const WindowPoint& point : window.keyframes[0]->points) EXPECT_NEAR(point.offset, 0.0, 1e-6);
+}
+
+TEST_F(WindowOptimizerTest, CeresFindsNoBetterOptimum) {
+  for (const DepthUse use : {DepthUse::pose_aware, DepthUse::free, DepthUse::pose_aware_prior}) {
+    Window ours = make_window(4, true, use, 60);
+    Window theirs = make_window(4, true, use, 60);
+    for (Window* window : {&ours, &theirs}) {
+      disturb(*window, 0);
+      if (use != DepthUse::pose_aware) disturb_depths(*window);
+    }
+    WindowOptimizerOptions options;
+    options.max_iterations = 60;
+    options.converged = 1e-10;
+    const WindowSummary summary = WindowOptimizer(options).optimize(ours, camera_);
+    const test::CeresOutcome ceres = test::optimize_with_ceres(theirs, camera_, options, 60);
+    EXPECT_NEAR(summary.initial_cost, ceres.initial_cost, 1e-9 * ceres.initial_cost) << to_string(use);
+    EXPECT_LT(summary.final_cost, 0.5 * summary.initial_cost);
+    EXPECT_NEAR(summary.final_cost, ceres.final_cost, 1e-3 * ceres.final_cost) << to_string(use);
+    EXPECT_LT(largest_difference(ours, theirs), 2e-5) << to_string(use);
+  }
+}
+
+TEST_F(WindowOptimizerTest, MarginalisedKeyframesStillHoldTheOthers) {
+  // Only the oldest keyframe is anchored; once it has gone, what it knew is all that holds the others in the world.
+  std::map<bool, double> uncertainty;
+  for (const bool kept : {true, false}) {
+    Window window = make_window(4, true, DepthUse::free);
+    for (std::size_t k = 1; k < window.keyframes.size(); ++k) window.keyframes[k]->anchor = {};
+    optimizer_.optimize(window, camera_);
+    MarginalisationOptions options;
+    options.enabled = kept;
+    marginalise_keyframe(window, 0, camera_, {}, options);
+    ASSERT_EQ(window.keyframes.size(), 3U);
+    EXPECT_EQ(window.prior.empty(), !kept);
+    disturb(window, 0);
+    WindowOptimizerOptions loose;
+    loose.max_iterations = 20;
+    loose.gauge_translation = 10.0;
+    loose.gauge_rotation = 10.0;
+    WindowOptimizer(loose).optimize(window, camera_);
+    uncertainty[kept] = window.keyframes[1]->covariance.trace();
+    if (!kept) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const SE3 error = test::room_path(6 * static_cast<int>(k + 1)).inverse() * window.keyframes[k]->T_world_camera;
+      EXPECT_LT(error.translation().norm(), 0.003) << k;
+    }
+  }
+  EXPECT_LT(uncertainty[true], 0.1 * uncertainty[false]);
+}
+
+TEST_F(WindowOptimizerTest, ThePriorOfMarginalisedKeyframesHasItsMinimumWhereTheyAgreed) {
+  Window window = make_window(5, true);
+  WindowOptimizerOptions options;
+  options.max_iterations = 20;
+  const WindowOptimizer optimizer(options);
+  optimizer.optimize(window, camera_);
+  marginalise_keyframe(window, 1, camera_, options, {});
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(window.prior.H);
+  EXPECT_GT(eigen.eigenvalues()[0], -1e-6 * eigen.eigenvalues().tail<1>()[0]);
+  std::vector<SE3> before;
+  for (const auto& keyframe : window.keyframes) before.push_back(keyframe->T_world_camera);
+  optimizer.optimize(window, camera_);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_LT((before[k].translation() - window.keyframes[k]->T_world_camera.translation()).norm(), 5e-4);
+  }
+}
+
+TEST_F(WindowOptimizerTest, SameBitsWithAnyNumberOfThreads) {
+  for (const DepthUse use : {DepthUse::pose_aware, DepthUse::free}) {
+    std::vector<Eigen::Matrix4d> poses;
+    const int before = threads();
+    for (const int n : {1, 2, 5}) {
+      set_threads(n);
+      Window window = make_window(4, true, use);
+      disturb(window, 0);
+      optimizer_.optimize(window, camera_);
+      marginalise_keyframe(window, 0, camera_, {}, {});
+      optimizer_.optimize(window, camera_);
+      poses.push_back(window.keyframes[2]->T_world_camera.matrix());
+    }
+    set_threads(before);
+    EXPECT_EQ(poses[0], poses[1]);
+    EXPECT_EQ(poses[0], poses[2]);
+  }
 }
 
 }  // namespace
