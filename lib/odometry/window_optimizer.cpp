@@ -27,10 +27,6 @@ class ScaledSolver {
   Eigen::VectorXd solve(const Eigen::VectorXd& g) const {
     return scale_.cwiseProduct(solver_.solve(scale_.cwiseProduct(g)));
   }
-  Eigen::MatrixXd inverse() const {
-    const Eigen::Index n = scale_.size();
-    return scale_.asDiagonal() * solver_.solve(Eigen::MatrixXd::Identity(n, n)) * scale_.asDiagonal();
-  }
 
  private:
   Eigen::VectorXd scale_;
@@ -59,6 +55,17 @@ void write_back(const WindowState& state, const WindowSystem& system, Window& wi
       std::tie(point.agreeing, point.contradicting) = system.counts[k][i];
     }
   }
+}
+
+/// H^-1, where H is information. Pair sums are of single precision: directions in which H, scaled to a diagonal of
+/// ones, is below their rounding are as good as unknown, and may come out negative.
+Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& H) {
+  constexpr double rounding = 1e-7;
+  const Eigen::VectorXd scale = H.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H * scale.asDiagonal());
+  const Eigen::VectorXd inverse = eigen.eigenvalues().cwiseMax(rounding).cwiseInverse();
+  const Eigen::MatrixXd V = scale.asDiagonal() * eigen.eigenvectors();
+  return V * inverse.asDiagonal() * V.transpose();
 }
 
 }  // namespace
@@ -116,7 +123,7 @@ WindowSummary WindowOptimizer::optimize(Window& window, const Camera& camera) co
   }
 
   reduce_system(system, 0.0, H, g);
-  const Eigen::MatrixXd covariance = ScaledSolver(H).inverse();
+  const Eigen::MatrixXd covariance = covariance_of(H);
   write_back(state, system, window);
   translate(window, origin);
   const Matrix6d shift = SE3(Eigen::Quaterniond::Identity(), origin).adjoint();
