@@ -83,7 +83,17 @@ WindowOptimizer::WindowOptimizer(const WindowOptimizerOptions& options) : option
 WindowSummary WindowOptimizer::optimize(Window& window, const Camera& camera) const {
   WindowSummary summary;
   const std::size_t n = window.keyframes.size();
-  if (n == 0 || (n == 1 && window.keyframes[0]->anchor.points.empty())) return summary;
+  if (n == 0) return summary;
+  if (n == 1 && window.keyframes[0]->anchor.points.empty()) {
+    // Nothing to compare it with: it is as uncertain as the gauge takes it to be.
+    Keyframe& only = *window.keyframes[0];
+    Vector6d variance;
+    variance << Eigen::Vector3d::Constant(options_.gauge_translation * options_.gauge_translation),
+        Eigen::Vector3d::Constant(options_.gauge_rotation * options_.gauge_rotation);
+    const Matrix6d shift = SE3(Eigen::Quaterniond::Identity(), only.T_world_camera.translation()).adjoint();
+    only.covariance = shift * variance.asDiagonal() * shift.transpose();
+    return summary;
+  }
   // The newest keyframe near the origin: levers stay short however far the map extends.
   const Eigen::Vector3d origin = window.keyframes.back()->T_world_camera.translation();
   translate(window, -origin);
