@@ -46,7 +46,8 @@ Run play(const World& world, MapView& map, SensorView* sensor, const apps::Track
          const SE3& T_world_camera_start, const std::string& label) {
   Run run;
   run.frames.resize(script.size());  // before the odometry: its memory is looked at
-  const auto odometry = make_odometry(world, map, job, T_world_camera_start);
+  const Localiser localiser = make_localiser(world, map, sensor != nullptr, job, T_world_camera_start);
+  Odometry& odometry = *localiser.odometry;
   Progress progress(label, static_cast<long>(script.size()));
   double cpu = 0.0;
   double wall = 0.0;
@@ -63,15 +64,15 @@ Run play(const World& world, MapView& map, SensorView* sensor, const apps::Track
     played.T_world_camera_true = world.T_world_camera(step.frame);
     const double cpu_before = cpu_seconds();
     const apps::Stopwatch watch;
-    played.result = odometry->track(image, step.time);
+    played.result = odometry.track(image, step.time);
     wall += watch.seconds();
     cpu += cpu_seconds() - cpu_before;
     played.resident_mb = resident_mb();
     progress.update(static_cast<long>(k) + 1, to_string(played.result.status));
   }
   progress.finish();
-  run.trajectory = odometry->trajectory();
-  run.statistics = odometry->statistics();
+  run.trajectory = odometry.trajectory();
+  run.statistics = odometry.statistics();
   const double frames = static_cast<double>(std::max<std::size_t>(1, script.size()));
   run.cpu_ms = 1000.0 * cpu / 2.0 / frames;
   run.wall_ms = 1000.0 * wall / frames;

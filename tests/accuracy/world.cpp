@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "odosplat/core/error.hpp"
+#include "places.hpp"
 
 namespace odosplat::accuracy {
 
@@ -13,6 +14,8 @@ void add_job_flags(CLI::App* command, Job& job) {
   apps::add_map_flags(command, job.track.map);
   command->add_option("--method", job.track.method, "as odosplat track knows it");
   command->add_option("--anchor", job.track.anchor, "on or off (default: as the method has it)");
+  command->add_option("--places", job.track.places, apps::places_help);
+  command->add_flag("!--no-relocalise", job.track.relocalise, "lost frames are not looked up in the map");
   command->add_option("--seed", job.track.seed, "seed of the pixel selector and of every disturbance");
   command->add_option("--frames", job.frames, apps::frames_help);
   command->add_option("--json", job.json, "the rows of the table, to this file");
@@ -32,9 +35,14 @@ World::World(const Job& job) : sequence_(apps::open_sequence(job.track.sequence)
   }
 }
 
-std::unique_ptr<Odometry> make_odometry(const World& world, MapView& map, const apps::TrackJob& job,
-                                        const SE3& T_world_camera_start) {
-  return std::make_unique<Odometry>(world.camera(), map, apps::odometry_options(job), T_world_camera_start);
+Localiser make_localiser(const World& world, MapView& map, bool sensor, const apps::TrackJob& job,
+                         const SE3& T_world_camera_start) {
+  Localiser made;
+  made.odometry = std::make_unique<Odometry>(world.camera(), map, apps::odometry_options(job), T_world_camera_start);
+  if (sensor || !job.relocalise) return made;
+  made.relocalizer = std::make_unique<Relocalizer>(world.camera(), map, apps::places_of(job.map, job.places));
+  made.odometry->set_relocalizer(made.relocalizer.get());
+  return made;
 }
 
 }  // namespace odosplat::accuracy

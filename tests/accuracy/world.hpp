@@ -9,6 +9,7 @@
 #include "map_views.hpp"
 #include "odosplat/io/sequence.hpp"
 #include "odosplat/odometry/odometry.hpp"
+#include "odosplat/odometry/relocalizer.hpp"
 #include "track.hpp"
 
 namespace odosplat::accuracy {
@@ -49,8 +50,14 @@ class World {
   std::size_t size_ = 0;
 };
 
-/// The odometry that scenarios judge: the one place that makes it. map must outlive it.
-std::unique_ptr<Odometry> make_odometry(const World& world, MapView& map, const apps::TrackJob& job,
-                                        const SE3& T_world_camera_start);
+/// The odometry that scenarios judge, with what it looks lost frames up by (null for a sensor, which has no places).
+struct Localiser {
+  std::unique_ptr<Relocalizer> relocalizer;
+  std::unique_ptr<Odometry> odometry;
+};
+
+/// The one place that makes it. map must outlive it; sensor: map shows the depth images of a sensor.
+Localiser make_localiser(const World& world, MapView& map, bool sensor, const apps::TrackJob& job,
+                         const SE3& T_world_camera_start);
 
 }  // namespace odosplat::accuracy
