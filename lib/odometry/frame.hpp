@@ -11,6 +11,9 @@
 
 namespace odosplat {
 
+/// [grey] A pixel this bright is taken for clipped: more light may be there. Smoothing takes a little off the white.
+inline constexpr float clipped_value = 0.985F;
+
 /// Affine brightness of a frame: I_frame = e^a L + b, where L is what a camera of neutral exposure would have seen.
 /// Seen from another frame: I_target = b_target + e^(a_target - a_host) (I_host - b_host).
 /// Source: Engel, Koltun, Cremers 2018 (DSO), without exposure times. a [-], b [grey, 0..1].

@@ -41,8 +41,6 @@ struct Estimate {
 Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, const GrayImage& image,
               const Estimate& at, float huber, float cutoff) {
   constexpr std::size_t block = 256;
-  // [grey] brighter light than this may be there; smoothing takes a little off a clipped pixel.
-  constexpr float saturated = 0.985F;
   const Eigen::Matrix3f R = at.T.rotation_matrix().cast<float>();
   const Eigen::Vector3f t = at.T.translation().cast<float>();
   const auto fx = static_cast<float>(camera.fx);
@@ -95,7 +93,7 @@ Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, c
       host_squares += p.intensity * p.intensity;
       products += value * p.intensity;
       const float expected = gain * p.intensity + offset;
-      if (value >= saturated && expected >= value) {
+      if (value >= clipped_value && expected >= value) {
         // Clipped as it must be: it agrees, and says nothing more.
         ++sums.inliers;
         continue;
