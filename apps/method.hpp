@@ -24,10 +24,10 @@ struct MethodPreset {
 };
 
 /// gaussian       ours: Gaussians, depth by ray planes as a measurement in the planes of the world, anchor
-/// paper          the paper's: Gaussians, blended depth as start and search interval of +-20 %, no anchor
+/// paper          the paper's: Gaussians, blended depth as search interval of +-20 %, then free, no anchor
 /// interpolation  the paper's ablation: the same with depth interpolated in the cloud (DEMO)
 /// surfel         DSL (Ye, Huang, Liu 2020): surfels of the cloud, coplanarity (planes of the world), no anchor
-/// rgbd           RGBD-DSO (Yuan et al. 2021): the sensor's depth, which starts a point and does not hold it, no anchor
+/// rgbd           RGBD-DSO (Yuan et al. 2021): the sensor's depth starts a point and does not hold it, no anchor
 const std::vector<MethodPreset>& method_presets();
 
 /// InputError that lists the names if there is none of that name.
