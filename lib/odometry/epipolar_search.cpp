@@ -169,11 +169,7 @@ SearchResult search_epipolar_line(const ImmaturePoint& point, const SE3& T_targe
   const float against = across.dot(point.tensor * across);
   const double error = options.location_error + options.location_error * static_cast<double>(with_gradient + against) /
                                                     std::max(1e-12, static_cast<double>(with_gradient));
-  if (2.0 * error > whole) {
-    result.status = SearchStatus::uncertain;
-    return result;
-  }
-  if (error > options.max_error) {
+  if (2.0 * error > whole || error > options.max_error) {
     result.status = SearchStatus::uncertain;
     return result;
   }

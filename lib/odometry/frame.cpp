@@ -18,12 +18,16 @@ Brightness compose_brightness(const Brightness& relative, const Brightness& host
   return {host.a + relative.a, relative.b + std::exp(relative.a) * host.b};
 }
 
+void check_size(const Camera& camera, const GrayImage& image) {
+  require(image.cols == camera.width && image.rows == camera.height, "image",
+          std::to_string(camera.width) + "x" + std::to_string(camera.height) + " as the camera says, is " +
+              std::to_string(image.cols) + "x" + std::to_string(image.rows));
+}
+
 FramePyramid build_frame_pyramid(const Camera& camera, const GrayImage& gray, double smoothing) {
   constexpr int max_levels = 6;
   constexpr int min_side = 30;
-  require(gray.cols == camera.width && gray.rows == camera.height, "image",
-          std::to_string(camera.width) + "x" + std::to_string(camera.height) + " as the camera says, is " +
-              std::to_string(gray.cols) + "x" + std::to_string(gray.rows));
+  check_size(camera, gray);
   FramePyramid pyramid;
   GrayImage full = gray;
   if (smoothing > 0.0) {

@@ -34,6 +34,9 @@ struct FramePyramid {
   int levels() const { return static_cast<int>(gray.size()); }
 };
 
+/// Throws InputError unless the image is as large as the camera says.
+void check_size(const Camera& camera, const GrayImage& image);
+
 /// Levels are halved while both sides stay at least 30 px, at most 6 of them. gray is shared, not copied; its size must
 /// be the camera's (InputError). smoothing [px] >= 0: standard deviation of a Gaussian that level 0 is smoothed with
 /// first; it takes off what aliases, which bilinear interpolation would turn into noise, and makes real and rendered

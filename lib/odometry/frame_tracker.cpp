@@ -109,7 +109,6 @@ Alignment FrameTracker::track_against_reference(const FramePyramid& pyramid, dou
   Alignment best = tracker_.align(points, pyramid, guesses.front(), relative_brightness_, top, 0);
   if (believed(best, false) && as_good_as_last(best)) return best;
 
-  const auto worth = [](const Alignment& a) { return a.finished ? a.inlier_share * a.coverage - a.rmse : -1.0; };
   const auto offer = [&](const Alignment& other) {
     if (worth(other) > worth(best)) best = other;
   };

@@ -17,14 +17,12 @@ void ImmaturePointOptions::check() const {
 }
 
 ImmaturePoint make_immature_point(const GradientImage& gradient, const cv::Point& pixel, double gradient_weight) {
-  const auto c2 = static_cast<float>(gradient_weight * gradient_weight);
   ImmaturePoint point;
   point.u = static_cast<float>(pixel.x);
   point.v = static_cast<float>(pixel.y);
-  for (std::size_t k = 0; k < pattern_size; ++k) {
-    const float* g = gradient.ptr<float>(pixel.y + pattern[k][1]) + 4 * (pixel.x + pattern[k][0]);
-    point.intensity[k] = g[0];
-    point.weight[k] = c2 / (c2 + g[3]);
+  sample_pattern(gradient, pixel, gradient_weight, point.intensity, point.weight);
+  for (const auto& [du, dv] : pattern) {
+    const float* g = gradient.ptr<float>(pixel.y + dv) + 4 * (pixel.x + du);
     const Eigen::Vector2f slope(g[1], g[2]);
     point.tensor += slope * slope.transpose();
   }

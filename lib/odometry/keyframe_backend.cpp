@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "odosplat/odometry/seen_pixel.hpp"
+
 namespace odosplat {
 namespace {
 
@@ -49,18 +51,17 @@ std::vector<ProjectedPoint> KeyframeBackend::points_seen_from(const SE3& T_world
     for (const WindowPoint& point : host->points) {
       if (point.of_map) continue;
       const double q = inverse_depth(point, camera_, host->T_world_camera);
-      if (!(q > 0.0)) continue;
-      const Eigen::Vector3d p = T_camera_host * (camera_.ray(point.u, point.v) / q);
-      if (!(p.z() > 1e-3)) continue;
-      const Eigen::Vector2d uv = camera_.project(p);
-      if (!(uv.x() >= 0.0 && uv.y() >= 0.0 && uv.x() < camera_.width - 1 && uv.y() < camera_.height - 1)) continue;
-      seen.push_back({static_cast<float>(uv.x()), static_cast<float>(uv.y()), static_cast<float>(1.0 / p.z())});
+      const auto pixel = seen_pixel(camera_, T_camera_host, point.u, point.v, q, 0.0);
+      if (!pixel) continue;
+      seen.push_back(
+          {static_cast<float>(pixel->uv.x()), static_cast<float>(pixel->uv.y()), static_cast<float>(1.0 / pixel->z)});
     }
   }
   return seen;
 }
 
-MadeKeyframe KeyframeBackend::make(const KeyframeRequest& request, double& corrected, bool& prefetched) {
+KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request,
+                                               std::span<const GradientImage> gradients) {
   const AnchorOptions& anchor = options_.keyframe.anchor;
   MapView& map = request.view != nullptr ? *request.view : map_;
   KeyframeContext context;
@@ -75,14 +76,17 @@ MadeKeyframe KeyframeBackend::make(const KeyframeRequest& request, double& corre
                 view_flow(camera_, *ahead, request.T_world_camera) > anchor.render_again_flow)) {
     ahead.reset();
   }
-  MadeKeyframe made;
+  Attempt result;
+  MadeKeyframe& made = result.made;
+  double& corrected = result.corrected;
   // Seen from where the map says the camera is, if that is elsewhere: depth and colour must belong to the pixel.
   for (int attempt = 0; attempt < 3; ++attempt) {
-    prefetched = attempt == 0 && ahead.has_value();
+    const bool prefetched = attempt == 0 && ahead.has_value();
+    result.prefetched = prefetched;
     if (prefetched) T_world_keyframe = ahead->T_world_camera;
     const ViewImages view = prefetched ? ahead->images : render(map, T_world_keyframe);
     const StageTimer timer(stages_[stage_keyframe]);
-    made = maker_.make(*request.pyramid, view, T_world_keyframe, request.brightness, tracker_, context);
+    made = maker_.make(*request.pyramid, gradients, view, T_world_keyframe, request.brightness, tracker_, context);
     if (prefetched && !made.anchored) {
       T_world_keyframe = request.T_world_camera;
       continue;
@@ -98,13 +102,13 @@ MadeKeyframe KeyframeBackend::make(const KeyframeRequest& request, double& corre
     // A place that the map gives and does not confirm from there is no way back into it.
     const StageTimer timer(stages_[stage_keyframe]);
     const double map_share = made.map_share;
-    made = maker_.make(*request.pyramid, {}, request.T_world_camera, request.brightness, tracker_, context);
+    made = maker_.make(*request.pyramid, gradients, {}, request.T_world_camera, request.brightness, tracker_, context);
     made.map_share = map_share;
     corrected = 0.0;
   } else if (made.anchored && made.keyframe != nullptr) {
     made.keyframe->T_world_camera = T_world_keyframe;
   }
-  return made;
+  return result;
 }
 
 void KeyframeBackend::come_back(const SE3& T_correction, bool far) {
@@ -131,9 +135,12 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
     window_.prior.clear();
     outside_ = false;
   }
-  double corrected = 0.0;
-  bool prefetched = false;
-  MadeKeyframe made = make(request, corrected, prefetched);
+  std::vector<GradientImage> gradients;
+  {
+    const StageTimer timer(stages_[stage_keyframe]);
+    gradients = build_gradients(*request.pyramid);
+  }
+  auto [made, corrected, prefetched] = make(request, gradients);
   KeyframeOutcome outcome;
   outcome.map_share = made.map_share;
   outcome.map_correlation = made.anchor.correlation;
@@ -162,7 +169,7 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
     remove_bad_points(window_, camera_);
   }
   const StageTimer timer(stages_[stage_keyframe]);
-  add_projected_points(made.reference, made.gradients, points_seen_from(keyframe->T_world_camera),
+  add_projected_points(made.reference, gradients, points_seen_from(keyframe->T_world_camera),
                        options_.keyframe.reference);
   keyframe->reference = std::make_shared<TrackingReference>(std::move(made.reference));
   outcome.window = references();
@@ -181,7 +188,7 @@ ViewImages KeyframeBackend::render(MapView& map, const SE3& T_world_camera) {
 std::vector<ReferenceFrame> KeyframeBackend::references() const {
   std::vector<ReferenceFrame> references;
   for (const auto& k : window_.keyframes) {
-    references.push_back({k->id, k->frame, k->T_world_camera, k->brightness, k->covariance, k->reference});
+    references.push_back({k->id, k->T_world_camera, k->brightness, k->covariance, k->reference});
   }
   return references;
 }

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "odosplat/map/map_view.hpp"
@@ -84,7 +85,13 @@ class KeyframeBackend {
 
  private:
   ViewImages render(MapView& map, const SE3& T_world_camera);
-  MadeKeyframe make(const KeyframeRequest& request, double& corrected, bool& prefetched);
+  /// A keyframe as it was made last, of several renderings maybe.
+  struct Attempt {
+    MadeKeyframe made;
+    double corrected = 0.0;   // [px] farthest that the map has moved it from where it was tracked
+    bool prefetched = false;  // made from the view that was rendered ahead
+  };
+  Attempt make(const KeyframeRequest& request, std::span<const GradientImage> gradients);
   void make_room();
   /// Moves the keyframes that only their own motion has placed; far: what the map holds is elsewhere, and is dropped.
   void come_back(const SE3& T_correction, bool far);

@@ -66,8 +66,9 @@ ViewImages KeyframeMaker::without_border(const ViewImages& view, double share) c
   return inner;
 }
 
-MadeKeyframe KeyframeMaker::make(const FramePyramid& pyramid, const ViewImages& whole_view, const SE3& T_world_camera,
-                                 const Brightness& brightness, const Tracker& tracker, const KeyframeContext& context) {
+MadeKeyframe KeyframeMaker::make(const FramePyramid& pyramid, std::span<const GradientImage> gradients,
+                                 const ViewImages& whole_view, const SE3& T_world_camera, const Brightness& brightness,
+                                 const Tracker& tracker, const KeyframeContext& context) {
   MadeKeyframe made;
   if (!whole_view.depth.empty()) {
     made.map_share =
@@ -79,9 +80,7 @@ MadeKeyframe KeyframeMaker::make(const FramePyramid& pyramid, const ViewImages& 
     const double shown = static_cast<double>(cv::countNonZero(view.depth)) / static_cast<double>(view.depth.total());
     made.point_share = std::min(1.0, shown / options_.full_share);
   }
-  made.gradients = build_gradients(pyramid);
-  made.reference =
-      build_reference(pyramid, made.gradients, view, reference_selector_, options_.reference, options_.plane);
+  made.reference = build_reference(pyramid, gradients, view, reference_selector_, options_.reference, options_.plane);
   const auto enough = [&](int others) {
     return static_cast<int>(made.reference.levels.front().size()) + others >= options_.min_points;
   };
@@ -91,7 +90,7 @@ MadeKeyframe KeyframeMaker::make(const FramePyramid& pyramid, const ViewImages& 
   made.keyframe = std::make_shared<Keyframe>();
   made.keyframe->T_world_camera = T_world_camera;
   made.keyframe->brightness = brightness;
-  made.keyframe->gradient = made.gradients.front();
+  made.keyframe->gradient = gradients.front();
   if (made.in_map && made.verifiable) add_anchor(made, pyramid, view, tracker, context.distrust_map);
   const bool map_believed = made.in_map && (!context.distrust_map || made.anchored || !made.verifiable);
   if (!map_believed) {
@@ -102,23 +101,24 @@ MadeKeyframe KeyframeMaker::make(const FramePyramid& pyramid, const ViewImages& 
     made.keyframe = nullptr;
     return made;
   }
-  add_points(made, pyramid, map_believed ? view : ViewImages(), context.first);
+  add_points(made, pyramid.cameras.front(), gradients, map_believed ? view : ViewImages(), context.first);
   return made;
 }
 
-void KeyframeMaker::add_points(MadeKeyframe& made, const FramePyramid& pyramid, const ViewImages& view, bool first) {
+void KeyframeMaker::add_points(MadeKeyframe& made, const Camera& camera, std::span<const GradientImage> gradients,
+                               const ViewImages& view, bool first) {
   Keyframe& keyframe = *made.keyframe;
   const WindowPointOptions& options = options_.window_points;
   const bool search = options.depth_use == DepthUse::interval && !first;
   const int wanted = static_cast<int>(made.point_share * options.points);
   keyframe.immature =
-      make_immature_points(made.gradients, view.depth, options.gradient_weight, immature_selector_, options_.immature);
-  keyframe.points = make_window_points(pyramid.cameras.front(), made.gradients, view, keyframe.T_world_camera, wanted,
-                                       window_selector_, options, options_.plane, options.depth_use);
+      make_immature_points(gradients, view.depth, options.gradient_weight, immature_selector_, options_.immature);
+  keyframe.points = make_window_points(camera, gradients, view, keyframe.T_world_camera, wanted, window_selector_,
+                                       options, options_.plane, options.depth_use);
   if (!search) return;
   for (const WindowPoint& point : keyframe.points) {
     const cv::Point pixel(static_cast<int>(point.u), static_cast<int>(point.v));
-    const double q = inverse_depth(point, pyramid.cameras.front(), keyframe.T_world_camera);
+    const double q = inverse_depth(point, camera, keyframe.T_world_camera);
     ImmaturePoint immature = make_immature_point(keyframe.gradient, pixel, options.gradient_weight);
     immature.of_map = true;
     immature.min_q = q / (1.0 + options_.immature.depth_interval);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/odometry/immature_points.hpp"
@@ -57,13 +58,12 @@ struct KeyframeContext {
 
 /// What came of the attempt to make a keyframe.
 struct MadeKeyframe {
-  std::shared_ptr<Keyframe> keyframe;    // null: too little depth there. Its reference has the map's points alone
-  TrackingReference reference;           // the keyframe's, for the caller to complete and to give to it
-  std::vector<GradientImage> gradients;  // of the image, full size first
-  bool in_map = false;                   // the map alone shows enough, and is believed
-  bool verifiable = false;               // the map has colours to be compared with the image
-  double point_share = 0.0;              // of the window's points wanted that the map is asked for
-  double map_share = 0.0;                // share of the image with map depth
+  std::shared_ptr<Keyframe> keyframe;  // null: too little depth there. Its reference has the map's points alone
+  TrackingReference reference;         // the keyframe's, for the caller to complete and to give to it
+  bool in_map = false;                 // the map alone shows enough, and is believed
+  bool verifiable = false;             // the map has colours to be compared with the image
+  double point_share = 0.0;            // of the window's points wanted that the map is asked for
+  double map_share = 0.0;              // share of the image with map depth
   bool anchored = false;
   Alignment anchor;        // of the keyframe's image against the rendered one
   SE3 T_world_camera_map;  // where that alignment puts the camera, if anchored
@@ -76,10 +76,12 @@ class KeyframeMaker {
  public:
   explicit KeyframeMaker(const KeyframeMakerOptions& options);
 
-  /// view must have been rendered with the pyramid's camera from T_world_camera. The keyframe's pose and brightness are
+  /// gradients: the pyramid's, of every level. view must have been rendered with the pyramid's camera from
+  /// T_world_camera. The keyframe's pose and brightness are
   /// as given; id, frame and time are left to the caller. tracker aligns image and rendered view.
-  MadeKeyframe make(const FramePyramid& pyramid, const ViewImages& view, const SE3& T_world_camera,
-                    const Brightness& brightness, const Tracker& tracker, const KeyframeContext& context = {});
+  MadeKeyframe make(const FramePyramid& pyramid, std::span<const GradientImage> gradients, const ViewImages& view,
+                    const SE3& T_world_camera, const Brightness& brightness, const Tracker& tracker,
+                    const KeyframeContext& context = {});
 
   const KeyframeMakerOptions& options() const { return options_; }
 
@@ -87,7 +89,8 @@ class KeyframeMaker {
   void add_anchor(MadeKeyframe& made, const FramePyramid& pyramid, const ViewImages& view, const Tracker& tracker,
                   bool far_off);
   ViewImages without_border(const ViewImages& view, double share) const;
-  void add_points(MadeKeyframe& made, const FramePyramid& pyramid, const ViewImages& view, bool first);
+  void add_points(MadeKeyframe& made, const Camera& camera, std::span<const GradientImage> gradients,
+                  const ViewImages& view, bool first);
 
   KeyframeMakerOptions options_;
   PixelSelector reference_selector_;

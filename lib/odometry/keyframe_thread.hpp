@@ -48,8 +48,8 @@ class KeyframeThread {
   /// The keyframe that was finished since the last call, if any.
   std::optional<FinishedKeyframe> take();
 
-  /// Waits until nothing is asked for any more, then as take(). Until the next call of request() or prefetch() the back
-  /// end and its map are the caller's.
+  /// Waits until nothing is asked for any more, then as take(). Until the next call of request(), observe() or
+  /// prefetch() the back end and its map are the caller's.
   std::optional<FinishedKeyframe> wait();
 
  private:

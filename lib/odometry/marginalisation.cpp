@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/window_priors.hpp"
 #include "odosplat/odometry/window_system.hpp"
 
 namespace odosplat {
@@ -29,8 +30,6 @@ Window points_to_marginalise(const Window& window, std::size_t index, const Marg
   }
   return part;
 }
-
-double information(double sigma) { return 1.0 / (sigma * sigma); }
 
 /// The prior, in the order of its frames, with one frame taken out.
 void drop_from_prior(MarginalPrior& prior, int frame) {
@@ -63,18 +62,7 @@ void marginalise_keyframe(Window& window, std::size_t index, const Camera& camer
   const WindowState whole = state;
   const Window part = points_to_marginalise(window, index, options, state);
   WindowSystem system = evaluate_window(part, state, camera, optimizer.photometric, static_cast<int>(index));
-  const auto own = static_cast<Eigen::Index>(8 * index);
-  const auto anchor = static_cast<Eigen::Index>(8 * n + 2 * index);
-  const Brightness& brightness = window.keyframes[index]->brightness;
-  const Brightness& of_anchor = window.keyframes[index]->anchor.brightness;
-  const auto add = [&](Eigen::Index i, double value, double weight) {
-    system.H(i, i) += weight;
-    system.g[i] += weight * value;
-  };
-  add(own + 6, brightness.a, information(optimizer.gain_sigma));
-  add(own + 7, brightness.b, information(optimizer.offset_sigma));
-  add(anchor, of_anchor.a, information(optimizer.gain_sigma));
-  add(anchor + 1, of_anchor.b, information(optimizer.offset_sigma));
+  add_brightness_priors(state, index, make_window_priors(window, optimizer), system);
 
   WindowSystem reduced;
   reduce_system(system, 0.0, reduced.H, reduced.g);

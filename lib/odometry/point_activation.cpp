@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
+#include "odosplat/odometry/seen_pixel.hpp"
 
 namespace odosplat {
 namespace {
@@ -28,17 +28,7 @@ class Occupancy {
   cv::Mat1b taken_;
 };
 
-std::optional<Eigen::Vector2d> place_in(const Camera& camera, const SE3& T_target_host, double u, double v, double q) {
-  constexpr double border = 3.0;
-  if (!(q > 0.0)) return std::nullopt;
-  const Eigen::Vector3d p = T_target_host * (camera.ray(u, v) / q);
-  if (!(p.z() > 1e-3)) return std::nullopt;
-  const Eigen::Vector2d uv = camera.project(p);
-  if (uv.x() < border || uv.y() < border || uv.x() > camera.width - 1 - border || uv.y() > camera.height - 1 - border) {
-    return std::nullopt;
-  }
-  return uv;
-}
+constexpr double border = 3.0;  // [px] of the newest keyframe, where no point is sought
 
 WindowPoint free_point(const ImmaturePoint& immature) {
   WindowPoint point;
@@ -119,7 +109,7 @@ int activate_points(Window& window, const Camera& camera, const PhotometricOptio
     const SE3 T_newest_host = T_newest_world * host->T_world_camera;
     for (const WindowPoint& point : host->points) {
       const double q = inverse_depth(point, camera, host->T_world_camera);
-      if (const auto uv = place_in(camera, T_newest_host, point.u, point.v, q)) occupancy.at(*uv) = 1;
+      if (const auto seen = seen_pixel(camera, T_newest_host, point.u, point.v, q, border)) occupancy.at(seen->uv) = 1;
     }
   }
   std::vector<std::vector<WindowPoint>> chosen(n);
@@ -129,9 +119,9 @@ int activate_points(Window& window, const Camera& camera, const PhotometricOptio
     const SE3 T_newest_host = T_newest_world * host.T_world_camera;
     std::erase_if(host.immature, [&](const ImmaturePoint& p) {
       if (p.found == 0 || p.length > options.max_length || p.quality < options.min_quality) return false;
-      const auto uv = place_in(camera, T_newest_host, p.u, p.v, 0.5 * (p.min_q + p.max_q));
-      if (!uv || occupancy.at(*uv) != 0) return false;
-      occupancy.at(*uv) = 1;
+      const auto seen = seen_pixel(camera, T_newest_host, p.u, p.v, 0.5 * (p.min_q + p.max_q), border);
+      if (!seen || occupancy.at(seen->uv) != 0) return false;
+      occupancy.at(seen->uv) = 1;
       chosen[k].push_back(free_point(p));
       return true;
     });
@@ -158,7 +148,7 @@ void remove_bad_points(Window& window, const Camera& camera) {
       if (!p.estimated) return false;
       const double q = inverse_depth(p, camera, host->T_world_camera);
       if (!(q > 1e-3) || !std::isfinite(q)) return true;
-      return p.agreeing + p.contradicting > 0 && p.contradicting > p.agreeing;
+      return p.contradicting > p.agreeing;
     });
   }
 }

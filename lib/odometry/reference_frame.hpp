@@ -13,8 +13,7 @@ namespace odosplat {
 /// A keyframe as the front end knows it: what the back end said of it last. A copy, so that the back end may move its
 /// keyframes meanwhile; the points are shared and never change.
 struct ReferenceFrame {
-  int id = -1;    // of the keyframe
-  int frame = 0;  // counts images from 0
+  int id = -1;  // of the keyframe
   SE3 T_world_camera;
   Brightness brightness;
   Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera

@@ -69,19 +69,13 @@ Relocalization Relocalizer::find(const GrayImage& image, const SE3& T_world_near
   return look_up(image, T_world_near);
 }
 
-double Relocalizer::Candidate::worth() const {
-  return alignment.finished ? alignment.inlier_share * alignment.coverage - alignment.rmse : -1.0;
-}
-
 bool Relocalizer::is_same(const SE3& T_a, const SE3& T_b) const {
   const SE3 T_a_b = T_a.inverse() * T_b;
   return T_a_b.translation().norm() < options_.same_distance && T_a_b.angle() < options_.same_angle;
 }
 
 Relocalization Relocalizer::look_up(const GrayImage& image, const std::optional<SE3>& T_world_near) {
-  require(image.cols == camera_.width && image.rows == camera_.height, "image",
-          std::to_string(camera_.width) + "x" + std::to_string(camera_.height) + " as the camera says, is " +
-              std::to_string(image.cols) + "x" + std::to_string(image.rows));
+  check_size(camera_, image);
   Relocalization result;
   cv::Scalar mean;
   cv::Scalar spread;
@@ -171,6 +165,13 @@ std::vector<Relocalizer::Candidate> Relocalizer::propose(const GrayImage& gray,
   return candidates;
 }
 
+TrackingReference Relocalizer::reference_of(const FramePyramid& rendered, const ViewImages& view) const {
+  PixelSelector selector(options_.selector);
+  return without_held_back(
+      build_reference(rendered, build_gradients(rendered), view, selector, options_.reference, options_.plane),
+      options_.verifier.block);
+}
+
 void Relocalizer::align(std::vector<Candidate>& candidates, const FramePyramid& image) {
   std::vector<ViewImages> views;
   views.reserve(candidates.size());
@@ -183,10 +184,7 @@ void Relocalizer::align(std::vector<Candidate>& candidates, const FramePyramid& 
       Candidate& candidate = candidates[static_cast<std::size_t>(c)];
       if (view.color.empty()) continue;
       const FramePyramid rendered = build_frame_pyramid(index_->camera(), to_gray(view.color), options_.smoothing);
-      PixelSelector selector(options_.selector);
-      const TrackingReference reference = without_held_back(
-          build_reference(rendered, build_gradients(rendered), view, selector, options_.reference, options_.plane),
-          options_.verifier.block);
+      const TrackingReference reference = reference_of(rendered, view);
       if (reference.empty()) continue;
       candidate.alignment = tracker_.align_best(reference, image, candidate.T_target_host, {});
     }
@@ -196,8 +194,8 @@ void Relocalizer::align(std::vector<Candidate>& candidates, const FramePyramid& 
 std::vector<Relocalizer::Candidate> Relocalizer::distinct(std::vector<Candidate> candidates, std::size_t most) const {
   std::vector<Candidate> kept;
   for (const std::size_t k :
-       best_of(candidates.size(), candidates.size(), [&](std::size_t i) { return candidates[i].worth(); })) {
-    if (kept.size() >= most || candidates[k].worth() < 0.0) break;
+       best_of(candidates.size(), candidates.size(), [&](std::size_t i) { return worth(candidates[i].alignment); })) {
+    if (kept.size() >= most || worth(candidates[k].alignment) < 0.0) break;
     const SE3 T_world_camera = candidates[k].T_world_camera();
     const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Candidate& other) {
       return is_same(other.T_world_camera(), T_world_camera);
@@ -220,10 +218,7 @@ Relocalizer::Finalist Relocalizer::verify(const Candidate& candidate, const Fram
     finalist.fault = "too few points agree";
     return finalist;
   }
-  PixelSelector selector(options_.selector);
-  const TrackingReference reference = without_held_back(
-      build_reference(rendered, build_gradients(rendered), view, selector, options_.reference, options_.plane),
-      options_.verifier.block);
+  const TrackingReference reference = reference_of(rendered, view);
   const Alignment alignment = tracker_.align(reference, image, SE3(), candidate.alignment.brightness, 1, 0);
   const Matrix6d covariance =
       options_.covariance_factor * (alignment.information + 1e-9 * Matrix6d::Identity()).inverse();

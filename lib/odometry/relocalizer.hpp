@@ -80,7 +80,6 @@ class Relocalizer {
     SE3 T_world_view;                // where the map is rendered from
     std::vector<SE3> T_target_host;  // guesses for the image against that view
     Alignment alignment;
-    double worth() const;
     SE3 T_world_camera() const { return T_world_view * alignment.T_target_host.inverse(); }
   };
   struct Finalist {
@@ -91,6 +90,8 @@ class Relocalizer {
 
   Relocalization look_up(const GrayImage& image, const std::optional<SE3>& T_world_near);
   std::vector<Candidate> propose(const GrayImage& gray, const std::optional<SE3>& T_world_near) const;
+  /// The map's view as something to align with, without what is held back for verification.
+  TrackingReference reference_of(const FramePyramid& rendered, const ViewImages& view) const;
   void align(std::vector<Candidate>& candidates, const FramePyramid& image);
   std::vector<Candidate> distinct(std::vector<Candidate> candidates, std::size_t most) const;
   Finalist verify(const Candidate& candidate, const FramePyramid& image);

@@ -161,6 +161,8 @@ void TrackerOptions::check() const {
   require(noise > 0.0, "tracker.noise", "positive");
 }
 
+double worth(const Alignment& a) { return a.finished ? a.inlier_share * a.coverage - a.rmse : -1.0; }
+
 Tracker::Tracker(const TrackerOptions& options) : options_(options) { options_.check(); }
 
 Alignment Tracker::align(const TrackingReference& reference, const FramePyramid& target, const SE3& T_target_host_guess,
@@ -272,11 +274,9 @@ Alignment Tracker::align_best(const TrackingReference& reference, const FramePyr
     double score;
   };
   std::vector<Candidate> candidates;
-  // Inliers over all points of the level: rewards agreement, and staying in view.
-  const auto score = [](const Alignment& a) { return a.finished ? a.inlier_share * a.coverage - a.rmse : -1.0; };
   for (const SE3& guess : guesses) {
     const Alignment a = align(reference, target, guess, brightness_guess, top, top);
-    candidates.push_back({a, score(a)});
+    candidates.push_back({a, worth(a)});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
@@ -287,9 +287,9 @@ Alignment Tracker::align_best(const TrackingReference& reference, const FramePyr
     if (candidates[k].score < 0.0) break;
     const Alignment& coarse = candidates[k].alignment;
     const Alignment a = align(reference, target, coarse.T_target_host, coarse.brightness, std::max(0, top - 1), 0);
-    if (score(a) > best_score) {
+    if (worth(a) > best_score) {
       best = a;
-      best_score = score(a);
+      best_score = worth(a);
     }
   }
   return best;

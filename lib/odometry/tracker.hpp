@@ -39,6 +39,10 @@ struct Alignment {
   bool finished = false;  // false: too few points in view, or not finite
 };
 
+/// How much an alignment is worth against others of the same frame: inliers over all points of the level, which rewards
+/// agreement and staying in view, less their residual; -1 where it did not finish.
+double worth(const Alignment& alignment);
+
 /// Coarse-to-fine direct alignment: minimises sum w huber(I_target(pi(T p)) - e^a I_host(p) - b) over T, a, b.
 /// Source: DSO's coarse tracker (residual, Huber, cut-off); template Jacobians of Baker and Matthews 2004 instead of
 /// gradients in the target, so that a frame needs nothing but its grey pyramid. Levenberg-Marquardt.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/seen_pixel.hpp"
 
 namespace odosplat {
 namespace {
@@ -20,11 +21,7 @@ double visible_share(const Keyframe& host, const Keyframe& other, const Camera& 
   int all = 0;
   const auto count = [&](double u, double v, double q) {
     ++all;
-    if (!(q > 0.0)) return;
-    const Eigen::Vector3d p = T_other_host * (camera.ray(u, v) / q);
-    if (!(p.z() > 0.0)) return;
-    const Eigen::Vector2d uv = camera.project(p);
-    if (uv.x() >= 0 && uv.y() >= 0 && uv.x() <= camera.width - 1 && uv.y() <= camera.height - 1) ++seen;
+    if (seen_pixel(camera, T_other_host, u, v, q, 0.0)) ++seen;
   };
   for (const WindowPoint& point : host.points) {
     count(point.u, point.v, inverse_depth(point, camera, host.T_world_camera));

@@ -56,7 +56,6 @@ std::vector<WindowPoint> make_window_points(const Camera& camera, std::span<cons
       mask(y, x) = covered && view.depth(y, x) > 0.0F ? 1 : 0;
     }
   }
-  const float c2 = static_cast<float>(options.gradient_weight * options.gradient_weight);
   for (const cv::Point& pixel : selector.select(gradients, mask, wanted)) {
     const auto surface = fit_surface(camera, view.depth, view.sigma, pixel.x, pixel.y, 1, plane_options);
     if (!surface) continue;
@@ -71,11 +70,7 @@ std::vector<WindowPoint> make_window_points(const Camera& camera, std::span<cons
     if (use == DepthUse::prior || use == DepthUse::pose_aware_prior) {
       point.prior_information = 1.0 / (surface->sigma * surface->sigma);
     }
-    for (std::size_t k = 0; k < pattern_size; ++k) {
-      const float* g = gradient.ptr<float>(pixel.y + pattern[k][1]) + 4 * (pixel.x + pattern[k][0]);
-      point.intensity[k] = g[0];
-      point.weight[k] = c2 / (c2 + g[3]);
-    }
+    sample_pattern(gradient, pixel, options.gradient_weight, point.intensity, point.weight);
     points.push_back(point);
   }
   return points;

@@ -17,6 +17,9 @@ struct WindowPriors {
 
 WindowPriors make_window_priors(const Window& window, const WindowOptimizerOptions& options);
 
+/// Adds cost and derivatives of the priors of keyframe k's brightness and of its anchor's.
+void add_brightness_priors(const WindowState& state, std::size_t k, const WindowPriors& priors, WindowSystem& system);
+
 /// Adds cost and derivatives of these priors and of the window's marginal prior.
 void add_window_priors(const Window& window, const WindowState& state, const WindowPriors& priors,
                        WindowSystem& system);

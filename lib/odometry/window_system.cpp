@@ -14,10 +14,10 @@ bool estimates_depth(const Keyframe& keyframe) {
   return std::any_of(keyframe.points.begin(), keyframe.points.end(), [](const WindowPoint& p) { return p.estimated; });
 }
 
-/// Gathers one host's offsets from its pairs. pair_of(target) gives the terms of that pair.
-template <typename PairOf>
+/// Gathers one host's offsets from its pairs. terms_of(target) gives the terms of that pair.
+template <typename TermsOf>
 void gather_depths(const Keyframe& host, std::size_t host_index, std::size_t n, const std::vector<double>& offsets,
-                   const PairOf& terms_of, HostDepths& depths, std::vector<std::pair<int, int>>& counts,
+                   const TermsOf& terms_of, HostDepths& depths, std::vector<std::pair<int, int>>& counts,
                    double& prior_cost) {
   for (std::size_t i = 0; i < host.points.size(); ++i) {
     if (host.points[i].estimated) depths.points.push_back(i);
