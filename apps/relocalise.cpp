@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -45,8 +44,6 @@ struct Row {
   double seconds;
   double cpu_seconds;  // of all threads: what it takes on a machine that others use, too
 };
-
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Whether at least half of what the whole map shows there belongs to the half that is deleted.
 bool loses_half(MapView& whole, const Camera& camera, const SE3& T_world_camera, const MapHalf& half) {

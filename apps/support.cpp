@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 
 #include "odosplat/compute/device.hpp"
@@ -101,6 +102,8 @@ void catch_interrupts() {
 }
 
 bool interrupted() { return interrupt_flag; }
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double peak_memory_mb() {
   rusage usage{};

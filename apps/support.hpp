@@ -31,6 +31,9 @@ bool interrupted();
 /// Largest resident size of this process so far [MB].
 double peak_memory_mb();
 
+/// [s] that all threads of this process have run so far.
+double cpu_seconds();
+
 /// "640x480" to width and height in 1..32768; InputError("FLAG", ...) otherwise.
 struct Size {
   int width = 0;

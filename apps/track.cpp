@@ -3,7 +3,6 @@
 #include "track.hpp"
 
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <sstream>
 
@@ -12,7 +11,6 @@
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
-#include "odosplat/odometry/relocalizer.hpp"
 #include "places.hpp"
 #include "playback.hpp"
 #include "track_record.hpp"
@@ -40,9 +38,6 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence) {
   }
   throw InputError(sequence.name(), "it has no true pose to start from; give --start \"tx ty tz qx qy qz qw\"");
 }
-
-/// [s] that all threads of the process have run.
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// A run in the making: what the two ways of playing a sequence share.
 class Run {
@@ -88,7 +83,7 @@ class Run {
     }
     const TrackResult result = odometry_.track(reader_.take(i), sequence_.time(i), view);
     record_.add(sequence_, i, result);
-    const OdometryStatistics& s = odometry_.statistics();
+    const OdometryStatistics s = odometry_.statistics();
     std::string words = to_string(result.status) + "  " + std::to_string(s.keyframes) + " keyframes  " +
                         std::to_string(s.lost) + " lost";
     if (record_.dropped() > 0) words += "  " + std::to_string(record_.dropped()) + " dropped";
@@ -113,35 +108,33 @@ OdometryOptions odometry_options(const TrackJob& job) {
   return options;
 }
 
-namespace {
-
-/// None where it is not wanted, or where there is no map to look at.
-std::optional<Relocalizer> make_relocalizer(const TrackJob& job, const Camera& camera, const OpenedView& opened) {
-  if (opened.sensor != nullptr) {
+std::unique_ptr<Relocalizer> make_relocalizer(const TrackJob& job, const Camera& camera, MapView& map, bool sensor) {
+  if (sensor) {
     if (job.start == "auto") throw InputError("--start", "auto needs a map, which method rgbd has not");
-    return std::nullopt;
+    return nullptr;
   }
-  if (!job.relocalise && job.start != "auto") return std::nullopt;
-  return std::make_optional<Relocalizer>(camera, *opened.view, places_of(job.map, job.places));
+  if (!job.relocalise && job.start != "auto") return nullptr;
+  return std::make_unique<Relocalizer>(camera, map, places_of(job.map, job.places));
 }
 
-/// In place: an odometry cannot move.
-void start_odometry(std::optional<Odometry>& odometry, const TrackJob& job, const Sequence& sequence,
-                    OpenedView& opened, std::optional<Relocalizer>& relocalizer) {
+namespace {
+
+std::unique_ptr<Odometry> start_odometry(const TrackJob& job, const Sequence& sequence, const OpenedView& opened,
+                                         Relocalizer* relocalizer) {
   const OdometryOptions options = odometry_options(job);
   // The first rendering loads the device's programs, and a look-up renders every place: a camera would not wait.
   if (job.start == "auto") {
     if (job.realtime) relocalizer->prepare();
-    odometry.emplace(sequence.camera(), *opened.view, options, *relocalizer);
-    return;
+    return std::make_unique<Odometry>(sequence.camera(), *opened.view, options, *relocalizer);
   }
   const SE3 T_world_camera_start = start_pose(job, sequence);
   if (job.realtime && opened.sensor == nullptr) {
     opened.view->render(sequence.camera(), T_world_camera_start, {true, true});
-    if (relocalizer) relocalizer->prepare();
+    if (relocalizer != nullptr) relocalizer->prepare();
   }
-  odometry.emplace(sequence.camera(), *opened.view, options, T_world_camera_start);
-  if (relocalizer) odometry->set_relocalizer(&*relocalizer);
+  auto odometry = std::make_unique<Odometry>(sequence.camera(), *opened.view, options, T_world_camera_start);
+  odometry->set_relocalizer(relocalizer);
+  return odometry;
 }
 
 }  // namespace
@@ -151,9 +144,8 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
   const Sequence sequence = open_sequence(job.sequence);
   if (sequence.size() == 0) throw InputError(sequence.name(), "holds no images");
   OpenedView opened = open_view(common, job.method, job.map, {job.depth_noise.model, job.seed});
-  std::optional<Relocalizer> relocalizer = make_relocalizer(job, sequence.camera(), opened);
-  std::optional<Odometry> started;
-  start_odometry(started, job, sequence, opened, relocalizer);
+  const auto relocalizer = make_relocalizer(job, sequence.camera(), *opened.view, opened.sensor != nullptr);
+  const auto started = start_odometry(job, sequence, opened, relocalizer.get());
   Odometry& odometry = *started;
   TrackRecord record;
   const double cpu_before = cpu_seconds();

@@ -5,6 +5,7 @@
 #include "map_views.hpp"
 #include "odosplat/core/trajectory.hpp"
 #include "odosplat/odometry/odometry.hpp"
+#include "odosplat/odometry/relocalizer.hpp"
 #include "sequence_flags.hpp"
 
 namespace odosplat::apps {
@@ -36,6 +37,10 @@ struct TrackOutcome {
   double p95_ms = 0.0;
   double cpu_ms = 0.0;  // CPU time of all threads a frame, reading included
 };
+
+/// What lost frames are looked up by, and a start that is not known; null where neither is wanted, and for a depth
+/// sensor, which has no places (InputError if it should start anywhere). map must outlive it.
+std::unique_ptr<Relocalizer> make_relocalizer(const TrackJob& job, const Camera& camera, MapView& map, bool sensor);
 
 /// How the odometry is set for this method and these flags.
 OdometryOptions odometry_options(const TrackJob& job);

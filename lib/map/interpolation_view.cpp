@@ -232,12 +232,7 @@ InterpolationView::InterpolationView(const PointCloud& cloud, const Interpolatio
 
 ViewImages InterpolationView::render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) {
   camera.check();
-  const cv::Size size(camera.width, camera.height);
-  ViewImages images;
-  images.depth = DepthImage::zeros(size);
-  images.sigma = cv::Mat1f::zeros(size);
-  if (request.alpha) images.alpha = cv::Mat1f::zeros(size);
-  if (request.color && cloud_.has_colors()) images.color = ColorImage(size, cv::Vec3f(0.0F, 0.0F, 0.0F));
+  ViewImages images = blank_images(camera, request, cloud_.has_colors());
 
   std::vector<ProjectedPoint> points =
       project_points(cloud_, spacings_, camera, T_world_camera, options_.min_depth, options_.disc_spacings);

@@ -5,6 +5,16 @@
 #include "odosplat/core/error.hpp"
 
 namespace odosplat {
+
+ViewImages blank_images(const Camera& camera, const ViewRequest& request, bool colors) {
+  const cv::Size size(camera.width, camera.height);
+  ViewImages images;
+  images.depth = DepthImage::zeros(size);
+  images.sigma = cv::Mat1f::zeros(size);
+  if (request.alpha) images.alpha = cv::Mat1f::zeros(size);
+  if (request.color && colors) images.color = ColorImage(size, cv::Vec3f(0.0F, 0.0F, 0.0F));
+  return images;
+}
 namespace {
 
 template <typename T>

@@ -27,6 +27,10 @@ struct ViewRequest {
   bool alpha = false;
 };
 
+/// Images in which the map says nothing, as large as the camera's: depth and sigma, alpha if it is asked for, black
+/// colours if they are asked for and `colors` says that the map has them.
+ViewImages blank_images(const Camera& camera, const ViewRequest& request, bool colors);
+
 /// A prior map as its users see it: something that can be looked at from a pose. The odometry knows this interface and
 /// none of its implementations (Gaussians, interpolated cloud, surfels, a depth sensor).
 class MapView {

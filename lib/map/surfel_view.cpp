@@ -184,12 +184,7 @@ SurfelView::SurfelView(const PointCloud& cloud, const SurfelOptions& options)
 
 ViewImages SurfelView::render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) {
   camera.check();
-  const cv::Size size(camera.width, camera.height);
-  ViewImages images;
-  images.depth = DepthImage::zeros(size);
-  images.sigma = cv::Mat1f::zeros(size);
-  if (request.alpha) images.alpha = cv::Mat1f::zeros(size);
-  if (request.color && cloud_.has_colors()) images.color = ColorImage(size, cv::Vec3f(0.0F, 0.0F, 0.0F));
+  ViewImages images = blank_images(camera, request, cloud_.has_colors());
 
   const auto radius = static_cast<float>(radius_);
   const std::vector<ProjectedPoint> points = project_points(cloud_, std::vector<float>(cloud_.size(), radius), camera,

@@ -2,7 +2,6 @@
 // Copyright 2026 The odosplat authors
 #include "play.hpp"
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -13,15 +12,6 @@
 
 namespace odosplat::accuracy {
 namespace {
-
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 double resident_mb() {
   std::ifstream file("/proc/self/statm");
@@ -62,11 +52,11 @@ Run play(const World& world, MapView& map, SensorView* sensor, const apps::Track
     played.frame = step.frame;
     played.blind = step.blind;
     played.T_world_camera_true = world.T_world_camera(step.frame);
-    const double cpu_before = cpu_seconds();
+    const double cpu_before = apps::cpu_seconds();
     const apps::Stopwatch watch;
     played.result = odometry.track(image, step.time);
     wall += watch.seconds();
-    cpu += cpu_seconds() - cpu_before;
+    cpu += apps::cpu_seconds() - cpu_before;
     played.resident_mb = resident_mb();
     progress.update(static_cast<long>(k) + 1, to_string(played.result.status));
   }

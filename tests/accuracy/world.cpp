@@ -39,8 +39,7 @@ Localiser make_localiser(const World& world, MapView& map, bool sensor, const ap
                          const SE3& T_world_camera_start) {
   Localiser made;
   made.odometry = std::make_unique<Odometry>(world.camera(), map, apps::odometry_options(job), T_world_camera_start);
-  if (sensor || !job.relocalise) return made;
-  made.relocalizer = std::make_unique<Relocalizer>(world.camera(), map, apps::places_of(job.map, job.places));
+  made.relocalizer = apps::make_relocalizer(job, world.camera(), map, sensor);
   made.odometry->set_relocalizer(made.relocalizer.get());
   return made;
 }

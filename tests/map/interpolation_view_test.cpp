@@ -10,14 +10,12 @@
 #include <limits>
 #include <vector>
 
-#include "map/map_view_checks.hpp"
+#include "map/cloud_view_checks.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
 
 namespace odosplat {
 namespace {
-
-const Camera camera_320{320, 240, 240.0, 240.0, 159.5, 119.5};
 
 // Points on the parallelogram corner + a s + b t, one a cell of about `spacing`, at a random place in it.
 void add_patch(PointCloud& cloud, const Eigen::Vector3d& corner, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
@@ -32,16 +30,6 @@ void add_patch(PointCloud& cloud, const Eigen::Vector3d& corner, const Eigen::Ve
     }
   }
 }
-
-// A plane n.p = d in world coordinates, large around the axis z.
-struct Plane {
-  Eigen::Vector3d n;
-  double d;
-  double depth(const Camera& camera, const SE3& T_world_camera, double u, double v) const {
-    const Eigen::Vector3d ray = T_world_camera.rotation() * camera.ray(u, v);
-    return (d - n.dot(T_world_camera.translation())) / n.dot(ray);
-  }
-};
 
 PointCloud slanted_plane(const Plane& plane, double spacing, double noise, std::uint64_t seed) {
   Random random(seed);
@@ -229,31 +217,10 @@ TEST(InterpolationView, TakesTheColorOfTheNearestPoint) {
 TEST(InterpolationView, KeepsWhatEveryMapViewKeeps) {
   PointCloud cloud = slanted_plane({Eigen::Vector3d(0.3, 0.1, 0.9).normalized(), 2.0}, 0.05, 0.01, 8);
   for (const Eigen::Vector3f& p : cloud.points) cloud.colors.emplace_back(p.cwiseAbs() / 12.0F);
-  InterpolationView view(cloud);
-  check_map_view(view, Camera{163, 121, 120.0, 121.0, 80.0, 60.5}, SE3());
-  check_map_view_sizes(view, camera_320, SE3());
-  // So close that a few points fill the view.
-  const Eigen::Vector3d close = cloud.points[cloud.size() / 2].cast<double>() - 0.1 * Eigen::Vector3d::UnitZ();
-  const SE3 T_world_camera(Eigen::Quaterniond::Identity(), close);
-  check_map_view(view, camera_320, T_world_camera);
+  check_cloud_view<InterpolationView>(cloud);
 }
 
-TEST(InterpolationView, EmptyTinyAndBadCloudsGiveEmptyImages) {
-  InterpolationView empty(PointCloud{});
-  check_empty_map_view(empty, camera_320, SE3());
-  PointCloud behind;
-  behind.points.assign(5, Eigen::Vector3f(0, 0, -2));
-  InterpolationView nothing_in_view(behind);
-  check_empty_map_view(nothing_in_view, camera_320, SE3());
-  PointCloud bad;
-  bad.points = {{std::nanf(""), 0, 1}, {0, 0, std::numeric_limits<float>::infinity()}};
-  InterpolationView not_finite(bad);
-  check_empty_map_view(not_finite, camera_320, SE3());
-  PointCloud same;
-  same.points.assign(20, Eigen::Vector3f(0, 0, 2));  // spacing 0
-  InterpolationView copies(same);
-  expect_well_formed(copies.render(camera_320, SE3(), {}), camera_320, {});
-}
+TEST(InterpolationView, EmptyTinyAndBadCloudsGiveEmptyImages) { check_views_of_poor_clouds<InterpolationView>(); }
 
 TEST(InterpolationView, RefusesBadOptions) {
   InterpolationOptions options;

@@ -10,23 +10,12 @@
 #include <cstdio>
 #include <limits>
 
-#include "map/map_view_checks.hpp"
+#include "map/cloud_view_checks.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
 
 namespace odosplat {
 namespace {
-
-const Camera camera_320{320, 240, 240.0, 240.0, 159.5, 119.5};
-
-struct Plane {
-  Eigen::Vector3d n;  // n . p = d in the world
-  double d;
-  double depth(const Camera& camera, const SE3& T_world_camera, double u, double v) const {
-    const Eigen::Vector3d ray = T_world_camera.rotation() * camera.ray(u, v);
-    return (d - n.dot(T_world_camera.translation())) / n.dot(ray);
-  }
-};
 
 // Points on the plane within `half` [m] of its point nearest to the origin, one a cell of `spacing`, at random in its
 // middle.
@@ -193,30 +182,12 @@ TEST(SurfelView, TakesTheColorOfTheSurfel) {
 TEST(SurfelView, KeepsWhatEveryMapViewKeeps) {
   PointCloud cloud = points_on({Eigen::Vector3d(0.3, 0.1, 0.9).normalized(), 2.0}, 4.0, 0.05, 0.01, 8);
   for (const Eigen::Vector3f& p : cloud.points) cloud.colors.emplace_back(p.cwiseAbs() / 12.0F);
-  SurfelView view(cloud);
-  check_map_view(view, Camera{163, 121, 120.0, 121.0, 80.0, 60.5}, SE3());
-  check_map_view_sizes(view, camera_320, SE3());
-  // So close that a few surfels fill the view.
-  const Eigen::Vector3d close = cloud.points[cloud.size() / 2].cast<double>() - 0.1 * Eigen::Vector3d::UnitZ();
-  check_map_view(view, camera_320, SE3(Eigen::Quaterniond::Identity(), close));
+  check_cloud_view<SurfelView>(cloud);
 }
 
 TEST(SurfelView, EmptyTinyAndBadCloudsGiveEmptyImages) {
-  SurfelView empty(PointCloud{});
-  EXPECT_EQ(empty.radius(), 0.0);
-  check_empty_map_view(empty, camera_320, SE3());
-  PointCloud behind;
-  behind.points.assign(5, Eigen::Vector3f(0, 0, -2));
-  SurfelView nothing_in_view(behind);
-  check_empty_map_view(nothing_in_view, camera_320, SE3());
-  PointCloud bad;
-  bad.points = {{std::nanf(""), 0, 1}, {0, 0, std::numeric_limits<float>::infinity()}};
-  SurfelView not_finite(bad);
-  check_empty_map_view(not_finite, camera_320, SE3());
-  PointCloud same;
-  same.points.assign(20, Eigen::Vector3f(0, 0, 2));  // spacing 0
-  SurfelView copies(same);
-  expect_well_formed(copies.render(camera_320, SE3(), {}), camera_320, {});
+  check_views_of_poor_clouds<SurfelView>();
+  EXPECT_EQ(SurfelView(PointCloud{}).radius(), 0.0);
 }
 
 TEST(SurfelView, RefusesBadOptions) {
