@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "box_room.hpp"
@@ -63,6 +64,20 @@ TEST_F(TrackerTest, PointsOfOtherKeyframesAreEnoughToTrackBy) {
   const std::size_t before = projected.levels.front().size();
   add_projected_points(projected, gradients_, seen, {});
   EXPECT_EQ(projected.levels.front().size(), before);
+}
+
+TEST_F(TrackerTest, ClippedPixelsDoNotPullTheGain) {
+  const SE3 truth(so3_exp({0.01, -0.02, 0.015}), {0.03, 0.01, -0.02});
+  const double gain = 2.0;
+  GrayImage bright = room_.gray(camera_, T_world_host_ * truth.inverse());
+  for (float& value : bright) value = std::min(1.0F, static_cast<float>(gain) * value);
+  const int clipped = cv::countNonZero(bright >= 1.0F);
+  ASSERT_GT(clipped, static_cast<int>(bright.total()) / 4);
+  ASSERT_LT(clipped, static_cast<int>(bright.total()) * 3 / 4);
+  const Alignment found = tracker_.align(reference_, build_frame_pyramid(camera_, bright), SE3(), {}, 9, 0);
+  expect_pose(found, truth, 0.002, 0.001);
+  EXPECT_NEAR(found.brightness.a, std::log(gain), 0.05);  // what is missing is in the offset
+  EXPECT_GT(found.inlier_share, 0.95);
 }
 
 TEST_F(TrackerTest, ProjectionJacobianMatchesCentralDifferences) {
