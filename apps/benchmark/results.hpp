@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "odosplat/core/trajectory.hpp"
+#include "odosplat/eval/evaluate.hpp"
+
+/// What a benchmark found, as the reports print it: plain data, complete or not. A run that has not been made, or that
+/// crashed, is in it too, with its reason.
+namespace odosplat::apps {
+
+/// A row of the table of sequences (the paper's Table 1).
+struct SequenceFacts {
+  std::string name;   // "icl_1"
+  std::string scene;  // "living_room": sequences of one scene share a world frame
+  std::string words;  // of the scene, for the table: "Living room"
+  std::string path;   // folder
+  int frames = 0;     // images
+  double seconds = 0.0;
+  double length_m = 0.0;   // of the true path, frame to frame
+  int width = 0;           // [px]
+  int height = 0;          // [px]
+  std::string checksum;    // of images' and truth's bytes, hexadecimal; empty: not known
+  std::string convention;  // verdict of `odosplat check` in a line; empty: not checked
+  double texture = -1.0;   // share of pixels with a gradient over 8 grey levels a pixel; < 0: not known
+  bool stand_in = false;   // made here, not the data set of that name
+  std::string fault;       // why there are no facts; empty: there are
+  Trajectory truth;        // T_world_camera of its images
+};
+
+/// A map that was trained.
+struct MapFacts {
+  std::string name;    // "living_room"; with --mapping split "living_room_a"
+  std::string preset;  // "default" or "paper"
+  std::size_t gaussians = 0;
+  int iterations = 0;
+  double seconds = 0.0;
+  double psnr_db = 0.0;  // on the training images
+  double peak_memory_mb = 0.0;
+  std::string fault;  // why there is none; empty: there is
+};
+
+/// One run of one method on one sequence.
+struct RunFacts {
+  std::string sequence;
+  std::string method;
+  int run = 1;             // 1 .. runs
+  std::uint64_t seed = 0;  // of the run
+  std::string fault;       // "killed by signal 11 (Segmentation fault)", "over 3600 s", "not run yet"; empty: it ran
+  // What follows is valid without a fault only.
+  int frames = 0;
+  int posed = 0;
+  int lost = 0;
+  int relocalisations = 0;
+  EvalResult unaligned;       // final trajectory against the truth, in the map's frame
+  EvalResult aligned;         // the same after an SE(3) alignment
+  double live_ate_m = 0.0;    // RMSE of the poses as known when the frames came, unaligned
+  double ms_per_frame = 0.0;  // wall time, median
+  double p95_ms = 0.0;        // wall time, 95th percentile
+  double cpu_ms = 0.0;        // CPU time of all threads, mean
+  double peak_memory_mb = 0.0;
+  Trajectory estimate;
+};
+
+struct BenchmarkResults {
+  std::string suite;                 // "synthetic", "icl", or the name a suite file gives itself
+  bool stand_in = false;             // sequences are stand-ins: labelled wherever numbers appear
+  std::string mapping;               // protocol in a sentence: which frames and clouds the maps are made of
+  bool split = false;                // --mapping split: no tested sequence's images in its map
+  std::string quick;                 // words on what --quick cut short; empty: nothing
+  std::vector<std::string> methods;  // in the order asked for; "gaussian" is ours
+  int runs = 1;
+  std::vector<SequenceFacts> sequences;
+  std::vector<MapFacts> maps;
+  std::vector<RunFacts> cells;  // every (sequence, method, run), in that order
+  std::string machine;          // processor, number of cores
+  std::string device;           // OpenCL device
+  std::string version;          // of odosplat
+  std::string command;          // that makes these results
+};
+
+/// The runs of one method on one sequence put together: medians over those that went through, and their spread.
+struct CellSummary {
+  int runs = 0;       // that went through
+  int failed = 0;     // that did not
+  std::string fault;  // the first failed run's
+  struct Value {
+    double median = 0.0;
+    double low = 0.0;
+    double high = 0.0;
+  };
+  Value ate_m, ate_aligned_m, live_ate_m, ate_max_m, rte_m, rre_deg, coverage, ms_per_frame, cpu_ms, peak_memory_mb;
+  bool complete() const { return runs > 0 && failed == 0; }
+};
+
+/// Summary of a cell; none if it has no run in the results.
+std::optional<CellSummary> summarise(const BenchmarkResults& results, const std::string& sequence,
+                                     const std::string& method);
+
+/// Places 1 (best) and 2 among methods by the smallest value, as printed (two values that print alike share a place);
+/// 0 for the others and for cells that are not complete.
+std::vector<int> places(const std::vector<std::optional<double>>& values, int decimals);
+
+/// The figure of a paper: "x" for a crash.
+struct PaperRow {
+  const char* sequence;
+  const char* method;
+  double ate_m;  // < 0: crashed
+  double rte_m;
+  double rre_deg;
+};
+
+/// Table 2 of the GS-DSO paper (MonoGS's row included) and the interpolation column of its Table 3.
+const std::vector<PaperRow>& paper_rows();
+
+}  // namespace odosplat::apps
