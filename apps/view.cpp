@@ -7,50 +7,20 @@
 #include "map_views.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/evaluate.hpp"
-#include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/camera_file.hpp"
-#include "odosplat/io/image_file.hpp"
 #include "odosplat/io/trajectory_file.hpp"
-#include "odosplat/viewer/compare_figure.hpp"
 #include "odosplat/viewer/depth_figure.hpp"
 #include "odosplat/viewer/map_figure.hpp"
 #include "odosplat/viewer/trajectory_figure.hpp"
 #include "sequence_flags.hpp"
+#include "view_figures.hpp"
+#include "view_output.hpp"
 
 namespace odosplat::apps {
 namespace {
 
-struct OutputFlags {
-  std::string out;
-  std::string size;  // empty: the figure's own
-};
-
-void add_output_flags(CLI::App* command, OutputFlags& flags) {
-  command->add_option("--out", flags.out, "picture to write (PNG)")->required();
-  command->add_option("--size", flags.size, "WIDTHxHEIGHT of the picture [px] (default: as the figure needs)");
-}
-
-template <typename Figure>
-void set_size(const OutputFlags& flags, Figure& figure) {
-  ensure_output_file(flags.out);
-  if (flags.size.empty()) return;
-  const Size size = parse_size("--size", flags.size);
-  figure.size = {size.width, size.height};
-}
-
-void save(const OutputFlags& flags, const cv::Mat3b& picture) {
-  write_rgb8(flags.out, picture);
-  std::printf("%s: %dx%d\n", flags.out.c_str(), picture.cols, picture.rows);
-}
-
-CLI::App* add_view_kind(CLI::App* parent, Common& common, const char* name, const char* help, OutputFlags& flags) {
-  CLI::App* command = add_command(*parent, common, name, help);
-  add_output_flags(command, flags);
-  return command;
-}
-
 struct MapViewFlags {
-  OutputFlags output;
+  ViewOutputFlags output;
   MapFlags map;
   std::string poses;
   std::string camera;
@@ -64,11 +34,11 @@ void run_map(const MapViewFlags& flags) {
   if (!flags.poses.empty()) figure.cameras = read_trajectory(flags.poses);
   if (!flags.camera.empty()) figure.camera = read_camera_file(flags.camera).camera;
   figure.title = flags.title;
-  save(flags.output, draw_map(figure));
+  save_picture(flags.output, draw_map(figure));
 }
 
 struct TrajectoryViewFlags {
-  OutputFlags output;
+  ViewOutputFlags output;
   MapFlags map;
   std::string estimate;
   std::string truth;
@@ -91,25 +61,16 @@ void run_trajectory(const TrajectoryViewFlags& flags) {
   if (!flags.truth.empty()) figure.truth = read_trajectory(flags.truth);
   figure.title = flags.title;
   if (figure.title.empty() && !figure.truth.empty()) figure.title = error_title(figure.estimate, figure.truth);
-  save(flags.output, draw_trajectory(figure));
+  save_picture(flags.output, draw_trajectory(figure));
 }
 
 struct FrameViewFlags {
-  OutputFlags output;
+  ViewOutputFlags output;
   SequenceFlags sequence;
   MapFlags map;
   std::string method = "gaussian";
   std::vector<std::size_t> frames{0};
 };
-
-SE3 pose_of_frame(const Sequence& sequence, std::size_t frame) {
-  if (frame >= sequence.size()) {
-    throw InputError("--frame",
-                     "is " + std::to_string(frame) + ", the sequence has " + std::to_string(sequence.size()));
-  }
-  if (!sequence.T_world_camera(frame)) throw InputError("--frame", std::to_string(frame) + " has no pose");
-  return *sequence.T_world_camera(frame);
-}
 
 void run_depth(const Common& common, const FrameViewFlags& flags) {
   DepthFigure figure;
@@ -130,7 +91,7 @@ void run_depth(const Common& common, const FrameViewFlags& flags) {
   figure.alpha = images.alpha;
   figure.color = sequence.color(frame);
   figure.title = opened.view->name() + ", frame " + std::to_string(frame);
-  save(flags.output, draw_depth(figure));
+  save_picture(flags.output, draw_depth(figure));
 }
 
 void run_compare(const Common& common, const FrameViewFlags& flags) {
@@ -138,26 +99,31 @@ void run_compare(const Common& common, const FrameViewFlags& flags) {
   set_size(flags.output, figure);
   const Sequence sequence = open_sequence(flags.sequence);
   for (const std::size_t frame : flags.frames) pose_of_frame(sequence, frame);
-  OpenedView interpolation = open_view(common, "interpolation", flags.map);
-  OpenedView gaussian = open_view(common, "gaussian", flags.map);
+  ComparedViews views = open_compared_views(common, flags.map);
   for (const std::size_t frame : flags.frames) {
-    const SE3 T_world_camera = pose_of_frame(sequence, frame);
-    CompareExample example;
-    if (flags.frames.size() > 1) example.name = "frame " + std::to_string(frame);
-    example.image = sequence.color(frame);
-    example.methods.push_back(
-        {"interpolated", interpolation.view->render(sequence.camera(), T_world_camera, {}).depth});
-    example.methods.push_back({"rendered", gaussian.view->render(sequence.camera(), T_world_camera, {}).depth});
-    if (sequence.has_depth(frame)) example.truth = sequence.depth(frame);
-    figure.examples.push_back(std::move(example));
+    const std::string name = flags.frames.size() > 1 ? "frame " + std::to_string(frame) : "";
+    figure.examples.push_back(compare_example(views, sequence, frame, name));
   }
-  save(flags.output, draw_compare(figure));
+  save_picture(flags.output, draw_compare(figure));
+}
+
+void run_association(const Common& common, const FrameViewFlags& flags) {
+  AssociationFigure figure;
+  set_size(flags.output, figure);
+  const Sequence sequence = open_sequence(flags.sequence);
+  const std::size_t frame = flags.frames.at(0);
+  pose_of_frame(sequence, frame);
+  ComparedViews views = open_compared_views(common, flags.map);
+  const cv::Size size = figure.size;
+  figure = association_figure(views, sequence, frame, flags.map);
+  figure.size = size;
+  save_picture(flags.output, draw_association(figure));
 }
 
 }  // namespace
 
 void add_view(CLI::App& app, Common& common) {
-  CLI::App* view = app.add_subcommand("view", "figures as PNG, without a screen");
+  CLI::App* view = app.add_subcommand("view", "figures as PNG and films, without a screen");
   view->require_subcommand(1);
 
   auto map = std::make_shared<MapViewFlags>();
@@ -194,6 +160,17 @@ void add_view(CLI::App& app, Common& common) {
   add_map_flags(command, compare->map);
   command->add_option("--frame", compare->frames, "frame numbers, from 0")->delimiter(',');
   command->final_callback([&common, compare] { run_compare(common, *compare); });
+
+  auto association = std::make_shared<FrameViewFlags>();
+  command = add_view_kind(view, common, "association",
+                          "interpolated depth, rendered depth and the points of a map (the paper's Figure 1)",
+                          association->output);
+  add_sequence_flags(command, association->sequence);
+  add_map_flags(command, association->map);
+  command->add_option("--frame", association->frames, "frame number, from 0")->expected(1);
+  command->final_callback([&common, association] { run_association(common, *association); });
+
+  add_view_fly(view, common);
 }
 
 }  // namespace odosplat::apps

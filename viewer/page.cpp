@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "odosplat/core/error.hpp"
@@ -164,6 +165,28 @@ cv::Mat3b value_panel(const cv::Mat1f& values, ColorScale scale, double low, dou
     }
   }
   return panel;
+}
+
+cv::Mat3b tiled(const std::vector<cv::Mat3b>& pictures, int columns) {
+  require(columns >= 1, "columns", "1 or more");
+  if (pictures.empty()) return {};
+  const auto count = static_cast<int>(pictures.size());
+  std::vector<int> widths(static_cast<std::size_t>(std::min(columns, count)), 0);
+  std::vector<int> heights(static_cast<std::size_t>((count + columns - 1) / columns), 0);
+  for (int k = 0; k < count; ++k) {
+    const cv::Mat3b& picture = pictures[static_cast<std::size_t>(k)];
+    int& width = widths[static_cast<std::size_t>(k % columns)];
+    int& height = heights[static_cast<std::size_t>(k / columns)];
+    width = std::max(width, picture.cols);
+    height = std::max(height, picture.rows);
+  }
+  Page page({std::accumulate(widths.begin(), widths.end(), 0), std::accumulate(heights.begin(), heights.end(), 0)});
+  for (int k = 0; k < count; ++k) {
+    page.paste(pictures[static_cast<std::size_t>(k)],
+               {std::accumulate(widths.begin(), widths.begin() + k % columns, 0),
+                std::accumulate(heights.begin(), heights.begin() + k / columns, 0)});
+  }
+  return page.pixels();
 }
 
 cv::Size figure_size(cv::Size asked, double aspect) {

@@ -59,6 +59,10 @@ cv::Mat3b color_panel(const ColorImage& color, cv::Size size);
 cv::Mat3b value_panel(const cv::Mat1f& values, ColorScale scale, double low, double high, cv::Size size, int pitch,
                       bool zero_is_valid);
 
+/// Pictures on one white page, row by row in so many columns >= 1, each column as wide and each row as high as its
+/// largest. No pictures: an empty one.
+cv::Mat3b tiled(const std::vector<cv::Mat3b>& pictures, int columns);
+
 /// Size of a figure as asked for, with its height filled in where that is 0: width times `aspect`.
 /// Throws InputError unless width is 16..16384 and height 0 or 16..16384.
 cv::Size figure_size(cv::Size asked, double aspect);

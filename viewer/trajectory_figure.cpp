@@ -39,12 +39,6 @@ double usual_step(const Trajectory& estimate) {
   return *middle;
 }
 
-/// Gap in time over which the estimate counts as broken.
-double longest_step(const Trajectory& estimate) {
-  const double step = usual_step(estimate);
-  return step > 0.0 ? 2.5 * step : std::numeric_limits<double>::infinity();
-}
-
 Rgb path_color(double error, double error_max) {
   if (!std::isfinite(error)) return unknown_color;
   return scale_color(ColorScale::error,
@@ -180,6 +174,11 @@ std::vector<LegendEntry> legend_of(const Paths& paths, double error_max, double 
 }
 
 }  // namespace
+
+double longest_step(const Trajectory& estimate) {
+  const double step = usual_step(estimate);
+  return step > 0.0 ? 2.5 * step : std::numeric_limits<double>::infinity();
+}
 
 std::vector<double> position_errors(const Trajectory& estimate, const Trajectory& truth, double tolerance) {
   std::vector<double> errors(estimate.size(), std::numeric_limits<double>::quiet_NaN());

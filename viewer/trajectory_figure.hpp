@@ -35,6 +35,10 @@ cv::Mat3b draw_trajectory(const TrajectoryFigure& figure);
 /// `tolerance` [s]; NaN where there is none.
 std::vector<double> position_errors(const Trajectory& estimate, const Trajectory& truth, double tolerance = 0.01);
 
+/// Gap in time [s] over which an estimate counts as broken: two and a half of its usual steps; infinite for fewer than
+/// two poses.
+double longest_step(const Trajectory& estimate);
+
 /// Paths along which the estimate is missing, as told above.
 std::vector<std::vector<Eigen::Vector3d>> lost_stretches(const Trajectory& estimate, const Trajectory& truth);
 

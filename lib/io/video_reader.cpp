@@ -4,26 +4,14 @@
 
 #include <cmath>
 #include <mutex>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/io/quiet_opencv.hpp"
 
 namespace odosplat {
 namespace {
-
-// OpenCV tells every backend's failure on standard error; the InputError says all that the user needs.
-class QuietOpenCv {
- public:
-  QuietOpenCv() : level_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
-  ~QuietOpenCv() { cv::utils::logging::setLogLevel(level_); }
-  QuietOpenCv(const QuietOpenCv&) = delete;
-  QuietOpenCv& operator=(const QuietOpenCv&) = delete;
-
- private:
-  cv::utils::logging::LogLevel level_;
-};
 
 bool open_capture(cv::VideoCapture& capture, const std::string& path) {
   const QuietOpenCv quiet;

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "view_output.hpp"
+
+#include <cstdio>
+
+#include "odosplat/io/image_file.hpp"
+
+namespace odosplat::apps {
+
+CLI::App* add_view_kind(CLI::App* parent, Common& common, const char* name, const char* help, ViewOutputFlags& flags) {
+  CLI::App* command = add_command(*parent, common, name, help);
+  command->add_option("--out", flags.out, "picture to write (PNG)")->required();
+  command->add_option("--size", flags.size, "WIDTHxHEIGHT of the picture [px] (default: as the figure needs)");
+  return command;
+}
+
+void save_picture(const ViewOutputFlags& flags, const cv::Mat3b& picture) {
+  write_rgb8(flags.out, picture);
+  std::printf("%s: %dx%d\n", flags.out.c_str(), picture.cols, picture.rows);
+}
+
+}  // namespace odosplat::apps

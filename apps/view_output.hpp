@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "odosplat/io/atomic_file.hpp"
+#include "support.hpp"
+
+/// What the kinds of `odosplat view` share.
+namespace odosplat::apps {
+
+struct ViewOutputFlags {
+  std::string out;
+  std::string size;  // empty: the figure's own
+};
+
+/// Declares a kind of view that writes a PNG: --out, --size.
+CLI::App* add_view_kind(CLI::App* parent, Common& common, const char* name, const char* help, ViewOutputFlags& flags);
+
+/// To be called before anything is computed: proves that the file can be written, and sets figure.size if one was
+/// given.
+template <typename Figure>
+void set_size(const ViewOutputFlags& flags, Figure& figure) {
+  ensure_output_file(flags.out);
+  if (flags.size.empty()) return;
+  const Size size = parse_size("--size", flags.size);
+  figure.size = {size.width, size.height};
+}
+
+/// Writes the picture and says so.
+void save_picture(const ViewOutputFlags& flags, const cv::Mat3b& picture);
+
+/// `odosplat view fly`: a film of a flight through a map.
+void add_view_fly(CLI::App* view, Common& common);
+
+}  // namespace odosplat::apps

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/io/video_writer.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/quiet_opencv.hpp"
+
+namespace odosplat {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_avi(const std::string& path) { return fs::path(path).extension() == ".avi"; }
+
+// The ending stays last: FFmpeg tells the format by it.
+std::string name_beside(const std::string& path) {
+  const fs::path whole(path);
+  return (whole.parent_path() / (whole.stem().string() + ".part" + std::to_string(getpid()))).string() +
+         whole.extension().string();
+}
+
+}  // namespace
+
+struct VideoWriter::State {
+  std::string path;
+  std::string beside;
+  cv::Size size;
+  cv::VideoWriter writer;
+};
+
+void check_video_name(const std::string& path) {
+  if (is_avi(path) || fs::path(path).extension() == ".mp4") return;
+  throw InputError(path, "a video's name must end in .avi or .mp4");
+}
+
+VideoWriter::VideoWriter(std::string path, cv::Size size, double fps) : state_(std::make_unique<State>()) {
+  check_video_name(path);
+  require(size.width > 0 && size.height > 0 && size.width % 2 == 0 && size.height % 2 == 0, "size of a video",
+          "even and positive");
+  require(std::isfinite(fps) && fps > 0.0 && fps <= 1000.0, "frames a second", "more than 0 and at most 1000");
+  ensure_output_file(path);
+  State& s = *state_;
+  s.path = std::move(path);
+  s.beside = name_beside(s.path);
+  s.size = size;
+  const QuietOpenCv quiet;
+  bool open = false;
+  try {
+    open = is_avi(s.path)
+               ? s.writer.open(s.beside, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), fps, size)
+               : s.writer.open(s.beside, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), fps, size);
+  } catch (const cv::Exception&) {
+    open = false;
+  }
+  if (!open) {
+    ::unlink(s.beside.c_str());
+    throw InputError(s.path, is_avi(s.path) ? "cannot be written as Motion JPEG"
+                                            : "cannot be written as MPEG-4: OpenCV has no FFmpeg that encodes it; .avi "
+                                              "needs none");
+  }
+}
+
+VideoWriter::~VideoWriter() {
+  if (state_->beside.empty()) return;
+  state_->writer.release();
+  ::unlink(state_->beside.c_str());
+}
+
+void VideoWriter::write(const cv::Mat3b& rgb) {
+  require(rgb.size() == state_->size, "a video's frame", "of the size of the others");
+  cv::Mat3b bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  state_->writer.write(bgr);
+}
+
+void VideoWriter::commit() {
+  State& s = *state_;
+  s.writer.release();
+  std::error_code error;
+  if (fs::file_size(s.beside, error) == 0 || error) throw InputError(s.path, "cannot be written: no frame got there");
+  fs::rename(s.beside, s.path, error);
+  if (error) throw InputError(s.path, "cannot be written: " + error.message());
+  s.beside.clear();
+}
+
+}  // namespace odosplat
