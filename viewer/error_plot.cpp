@@ -118,7 +118,7 @@ void draw_curve(Page& page, const Axes& axes, const ErrorSeries& series, double 
 cv::Mat3b draw_error_plot(const ErrorPlot& plot) {
   Range time;
   Range error;
-  double smallest = std::numeric_limits<double>::max();
+  std::vector<double> positive;
   for (const auto& series : plot.series) {
     require(series.times.size() == series.errors.size(), "series " + series.name, "of as many times as errors");
     for (std::size_t i = 0; i < series.times.size(); ++i) {
@@ -126,7 +126,7 @@ cv::Mat3b draw_error_plot(const ErrorPlot& plot) {
       time.extend(series.times[i]);
       if (!std::isfinite(series.errors[i])) continue;
       error.extend(series.errors[i]);
-      if (series.errors[i] > 0.0) smallest = std::min(smallest, series.errors[i]);
+      if (series.errors[i] > 0.0) positive.push_back(series.errors[i]);
     }
   }
   if (time.empty()) time = {0.0, 1.0};
@@ -136,7 +136,10 @@ cv::Mat3b draw_error_plot(const ErrorPlot& plot) {
   const Range x{0.0, time.high > time.low ? time.high - time.low : 1.0};
   Range y{0.0, nice_ceiling(error.high * unit.factor * 1.02)};
   if (plot.log_scale) {
-    const double low = std::min(smallest, error.high) * unit.factor;
+    // A hundredth lies lower: a path starts at no error at all, and one such frame would take up half the plot.
+    const auto low_place = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 100);
+    if (!positive.empty()) std::nth_element(positive.begin(), low_place, positive.end());
+    const double low = (positive.empty() ? error.high : *low_place) * unit.factor;
     y.low = nice_floor(std::max(low, y.high * 1e-5));
     if (!(y.low < y.high)) y.low = y.high / 10.0;
   }

@@ -26,8 +26,9 @@ struct ErrorPlot {
 };
 
 /// Draws the plot: R, G, B, of the size asked for, on white. Curves differ in colour and, for grey prints, in dashes;
-/// time starts at its smallest value over all series. No series, or none with values, gives empty axes. Same input,
-/// same bytes. Needs no OpenGL. Any thread. Throws InputError for a bad size or arrays of different lengths.
+/// time starts at its smallest value over all series. A logarithmic scale ends below at a round figure under 99 % of
+/// the errors; smaller ones are drawn at its end. No series, or none with values, gives empty axes. Same input, same
+/// bytes. Needs no OpenGL. Any thread. Throws InputError for a bad size or arrays of different lengths.
 cv::Mat3b draw_error_plot(const ErrorPlot& plot);
 
 }  // namespace odosplat

@@ -65,7 +65,7 @@ void draw_panel(Page& page, const TrajectoryPanel& panel, const cv::Rect& box, d
     return pixels;
   };
   const double band = std::max(2.0, 0.26 * font);
-  const double thin = std::max(1.0, 0.07 * font);
+  const double thin = std::max(1.0, 0.055 * font);
   for (const Path& stretch : unbroken(panel.estimate)) {
     const auto pixels = on_page(stretch);
     page.polyline(pixels, band, estimate_color);
@@ -115,11 +115,15 @@ cv::Mat3b draw_trajectories(const TrajectoriesFigure& figure) {
   const double width = (page.width() - (columns + 1) * gap) / columns;
   const double row_height = (page.height() - legend - gap) / rows;
   const double head = 1.5 * font;
+  int words_size = size;
+  for (const TrajectoryPanel& panel : figure.panels) {
+    words_size = std::min(words_size, fit_text(panel.words, size, width, 0.6).size);
+  }
   for (int k = 0; k < count; ++k) {
     const TrajectoryPanel& panel = figure.panels[static_cast<std::size_t>(k)];
     const double x = gap + (k % columns) * (width + gap);
     const double y = (k / columns) * row_height + 0.2 * font;
-    const FittedText words = fit_text(panel.words, size, width, 0.6);
+    const FittedText words = fit_text(panel.words, words_size, width, 0.6);
     page.text(words.text, {x + 0.5 * width, y + 0.5 * head},
               {.size = static_cast<double>(words.size), .x = AlignX::center});
     const cv::Rect box(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y + head)),

@@ -16,7 +16,7 @@ ReportTable sequences_table(const BenchmarkResults& results) {
   table.title = "Sequences (the paper's Table 1)";
   table.caption =
       "Length of the true path from frame to frame. Texture: share of the pixels whose grey changes by more than 8 of "
-      "255 levels a pixel. Checksum: of images and truth. Check: what `odosplat check` says of poses and depth.";
+      "255 levels a pixel. Checksum: of images and truth. Check: what odosplat check says of poses and depth.";
   table.label = label_of(results);
   table.row_head = "Sequence";
   table.columns = {{"", "scene", "", "scene", true},       {"", "frames", "", "frames"},

@@ -74,7 +74,8 @@ std::string cell_text(const ReportCell& cell) {
 std::string letters_for(std::size_t columns) {
   if (columns <= 8) return "\\footnotesize";
   if (columns <= 12) return "\\scriptsize\\setlength{\\tabcolsep}{3pt}";
-  return "\\tiny\\setlength{\\tabcolsep}{2pt}";
+  if (columns <= 14) return "\\tiny\\setlength{\\tabcolsep}{2pt}";
+  return "\\tiny\\setlength{\\tabcolsep}{1.4pt}";
 }
 
 std::string group_heads(const ReportTable& table, std::size_t names) {

@@ -222,6 +222,17 @@ TEST(ErrorPlot, NothingIsClippedLinearOrLogarithmic) {
   }
 }
 
+TEST(ErrorPlot, AFewTinyErrorsDoNotStretchALogarithmicScale) {
+  ErrorPlot plot = two_curves({800, 0});
+  plot.log_scale = true;
+  plot.series[0].errors.assign(100, 0.001);
+  const cv::Rect body(200, 90, 550, 290);  // clear of the legend
+  const auto height_of_second = [&] { return center_of(draw_error_plot(plot)(body), series_color(1), 3).y; };
+  const double whole = height_of_second();
+  plot.series[0].errors[0] = 1e-7;
+  EXPECT_NEAR(height_of_second(), whole, 2.0);
+}
+
 TEST(ErrorPlot, EmptyAndTiny) {
   ErrorPlot plot;
   plot.size = {200, 100};

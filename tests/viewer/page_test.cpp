@@ -113,6 +113,20 @@ TEST(ColorPanel, KeepsColorsAndClampsThem) {
   EXPECT_EQ(panel(0, 2), Rgb(255, 0, 0));
 }
 
+TEST(Tiled, PutsPicturesInRows) {
+  const cv::Mat3b red(4, 6, Rgb(255, 0, 0));
+  const cv::Mat3b green(2, 3, Rgb(0, 255, 0));
+  const cv::Mat3b page = tiled({red, green, green}, 2);
+  ASSERT_EQ(page.size(), cv::Size(9, 6));
+  EXPECT_EQ(count_near(page(cv::Rect(0, 0, 6, 4)), {255, 0, 0}, 0), 24);
+  EXPECT_EQ(count_near(page(cv::Rect(6, 0, 3, 2)), {0, 255, 0}, 0), 6);
+  EXPECT_EQ(count_near(page(cv::Rect(0, 4, 3, 2)), {0, 255, 0}, 0), 6);
+  EXPECT_EQ(count_near(page, {255, 255, 255}, 0), 54 - 36);
+  EXPECT_EQ(tiled({red}, 3).size(), red.size());
+  EXPECT_TRUE(tiled({}, 2).empty());
+  EXPECT_THROW(tiled({red}, 0), InputError);
+}
+
 TEST(FigureSize, FillsInTheHeightAndRefusesNonsense) {
   EXPECT_EQ(figure_size({400, 0}, 0.75), cv::Size(400, 300));
   EXPECT_EQ(figure_size({400, 77}, 0.75), cv::Size(400, 77));
