@@ -104,7 +104,7 @@ ReportFigure draw_association_figure(const Common& common, const BenchmarkResult
 
 ReportFigure draw_comparison_figure(const Common& common, const BenchmarkResults& results, const Maps& maps,
                                     const std::string& folder) {
-  ReportFigure report{"figures/depth.png", "", "", ""};
+  ReportFigure report{"figures/depth.png", "", "", "", true};
   const std::vector<std::string> names = with_maps(results, maps, {"icl_1", "augm_4"});
   if (names.empty()) throw InputError("no sequence has both a map and a cloud");
   CompareFigure figure;
@@ -138,7 +138,7 @@ ReportFigure draw_trajectories_figure(const BenchmarkResults& results, const std
 }
 
 ReportFigure draw_errors_figure(const BenchmarkResults& results, const std::string& folder) {
-  ReportFigure report{"figures/errors.png", "", "", ""};
+  ReportFigure report{"figures/errors.png", "", "", "", true};
   write_rgb8(folder + "/" + report.file, benchmark_errors(results));
   report.caption =
       std::string(results.stand_in ? "All sequences: stand-in. " : "") +

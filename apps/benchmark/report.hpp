@@ -15,6 +15,7 @@ struct ReportFigure {
   std::string title;    // "Trajectories (the paper's Figure 5)"
   std::string caption;  // sentences; carry the label "stand-in" where the picture shows numbers of stand-ins
   std::string missing;  // why it could not be drawn; empty: the file is there
+  bool wide = false;    // many panels: to be shown as wide as the page, others a column wide
 };
 
 /// Writes into `folder`: report.md, report.html (one page, figures within), report.json; tables.csv and tables.tex with

@@ -21,9 +21,10 @@ table { border-collapse: collapse; font-size: .875rem; font-variant-numeric: tab
 th, td { padding: .22rem .6rem; text-align: right; white-space: nowrap; vertical-align: top; }
 th { font-weight: 600; } thead th { vertical-align: bottom; }
 th.name, td.words, th.words { text-align: left; }
+th.name:first-child { position: sticky; left: 0; background: #fff; }
 thead tr:first-child th { border-top: 2px solid #333; } thead tr:last-child th { border-bottom: 1px solid #333; }
 tbody tr:last-child > * { border-bottom: 2px solid #333; }
-tbody tr:nth-child(even) { background: #f5f5f5; }
+tbody tr:nth-child(even), tbody tr:nth-child(even) th.name { background: #f5f5f5; }
 th.group { text-align: center; border-bottom: 1px solid #999; }
 .first { border-left: 1px solid #ccc; }
 td small { display: block; color: #555; font-size: .7rem; }
@@ -31,12 +32,13 @@ sup { font-size: .7em; line-height: 0; }
 .note { font-size: .85rem; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .2rem .9rem; }
 dt { font-weight: 600; } dd { margin: 0; overflow-wrap: anywhere; }
-figure { margin: .8rem 0; } img { max-width: 100%; height: auto; }
+figure { margin: .8rem 0; } img { max-width: min(100%, 42rem); height: auto; } img.wide { max-width: 100%; }
 figcaption { max-width: 48rem; }
 @media (max-width: 40rem) { dl { grid-template-columns: 1fr; } dd { margin-bottom: .4rem; } }
 @media print {
   body { font-size: 9pt; max-width: none; padding: 0; } .scroll { overflow: visible; }
-  table { font-size: 6.5pt; } th, td { padding: .12rem .25rem; } figure, tr { break-inside: avoid; }
+  table { font-size: 8pt; } th, td { padding: .1rem .35rem; } table.wide { font-size: 6pt; }
+  table.wide th, table.wide td { padding: .1rem .22rem; } figure, tr { break-inside: avoid; } img { max-width: 12cm; }
   h2, h3 { break-after: avoid; }
 }
 )";
@@ -130,7 +132,9 @@ std::string heads_text(const ReportTable& table) {
 std::string table_text(const ReportTable& table) {
   std::string text = "<h3>" + escaped(table.title) + label_text(table.label) + "</h3>\n";
   if (!table.caption.empty()) text += "<p>" + escaped(table.caption) + "</p>\n";
-  text += "<div class=\"scroll\" tabindex=\"0\"><table>\n" + heads_text(table) + "<tbody>\n";
+  const bool wide = table.columns.size() > 12;
+  text += std::string("<div class=\"scroll\" tabindex=\"0\"><table") + (wide ? " class=\"wide\"" : "") + ">\n" +
+          heads_text(table) + "<tbody>\n";
   for (const ReportRow& row : table.rows) {
     text += "<tr><th class=\"name\">" + escaped(row.name) + "</th>";
     if (!table.method_head.empty()) text += "<td class=\"words\">" + escaped(row.method) + "</td>";
@@ -149,9 +153,9 @@ std::string table_text(const ReportTable& table) {
 std::string figure_text(const ReportFigure& figure, const std::string& folder) {
   std::string text = "<h3>" + escaped(figure.title) + "</h3>\n";
   if (!figure.missing.empty()) return text + "<p>Left out: " + escaped(figure.missing) + "</p>\n";
-  return text + "<figure><img alt=\"" + escaped(figure.title) + "\" src=\"data:image/png;base64," +
-         base64(read_file(folder + "/" + figure.file)) + "\">\n<figcaption>" + escaped(figure.caption) +
-         "</figcaption></figure>\n";
+  return text + "<figure><img" + (figure.wide ? " class=\"wide\"" : "") + " alt=\"" + escaped(figure.title) +
+         "\" src=\"data:image/png;base64," + base64(read_file(folder + "/" + figure.file)) + "\">\n<figcaption>" +
+         escaped(figure.caption) + "</figcaption></figure>\n";
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
+#include <algorithm>
+
 #include "benchmark/report_formats.hpp"
 
 namespace odosplat::apps {
@@ -121,12 +123,49 @@ std::string table_text(const ReportTable& table) {
   return text + "\\end{table*}\n";
 }
 
+/// The table with the columns of one group, whose name goes to the title.
+ReportTable part_of(const ReportTable& table, const std::string& group, std::size_t number) {
+  ReportTable part = table;
+  part.key += "_" + std::to_string(number);
+  part.title += ": " + group;
+  part.columns.clear();
+  for (ReportRow& row : part.rows) row.cells.clear();
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (table.columns[c].group != group) continue;
+    part.columns.push_back(table.columns[c]);
+    part.columns.back().group.clear();
+    for (std::size_t r = 0; r < part.rows.size(); ++r) part.rows[r].cells.push_back(table.rows[r].cells[c]);
+  }
+  return part;
+}
+
+bool too_wide(const ReportTable& table) {
+  constexpr std::size_t columns_with_spread = 8;
+  const bool spread = std::ranges::any_of(table.rows, [](const ReportRow& row) {
+    return std::ranges::any_of(row.cells, [](const ReportCell& cell) { return !cell.spread.empty(); });
+  });
+  return table.has_groups() && spread && table.columns.size() > columns_with_spread;
+}
+
+/// Spreads make columns too wide for all groups to stand side by side: then each is a table of its own.
+std::string table_or_parts(const ReportTable& table) {
+  if (!too_wide(table)) return table_text(table);
+  std::string text;
+  std::vector<std::string> groups;
+  for (const ReportColumn& column : table.columns) {
+    if (std::ranges::find(groups, column.group) != groups.end()) continue;
+    groups.push_back(column.group);
+    text += (text.empty() ? "" : "\n") + table_text(part_of(table, column.group, groups.size()));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string tex_of(const std::vector<ReportTable>& tables, const BenchmarkResults& results) {
   std::string text = "% For \\input in a document with \\usepackage{booktabs} and \\usepackage[normalem]{ulem}.\n";
   if (results.stand_in) text += "% " + one_line(stand_in_warning(results)) + "\n";
-  for (const ReportTable& table : tables) text += "\n" + table_text(table);
+  for (const ReportTable& table : tables) text += "\n" + table_or_parts(table);
   return text;
 }
 
