@@ -93,7 +93,8 @@ struct CellSummary {
     double low = 0.0;
     double high = 0.0;
   };
-  Value ate_m, ate_aligned_m, live_ate_m, ate_max_m, rte_m, rre_deg, coverage, ms_per_frame, cpu_ms, peak_memory_mb;
+  Value ate_m, ate_aligned_m, live_ate_m, ate_max_m, rte_m, rre_deg, coverage, lost, ms_per_frame, p95_ms, cpu_ms,
+      peak_memory_mb;
   bool complete() const { return runs > 0 && failed == 0; }
 };
 
@@ -101,8 +102,8 @@ struct CellSummary {
 std::optional<CellSummary> summarise(const BenchmarkResults& results, const std::string& sequence,
                                      const std::string& method);
 
-/// Places 1 (best) and 2 among methods by the smallest value, as printed (two values that print alike share a place);
-/// 0 for the others and for cells that are not complete.
+/// Places 1 (best) and 2 among methods by the smallest value, as printed (two values that print alike share a place;
+/// after two firsts there is no second, as in the paper's tables); 0 for the others and for those without a value.
 std::vector<int> places(const std::vector<std::optional<double>>& values, int decimals);
 
 /// The figure of a paper: "x" for a crash.
