@@ -8,6 +8,7 @@
 #include "benchmark/job_runner.hpp"
 #include "benchmark/method_recipes.hpp"
 #include "benchmark/plan.hpp"
+#include "benchmark/report.hpp"
 #include "commands.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
@@ -48,8 +49,9 @@ void print_summary(const BenchmarkResults& results) {
 
 void report(const Plan& plan) {
   const BenchmarkResults results = gather(plan);
+  write_reports(results, {}, plan.options.out);
   print_summary(results);
-  std::printf("%s: report.md, report.html, report.json, tables.csv, tables.tex, figures\n", plan.options.out.c_str());
+  std::printf("%s: report.md, report.html, report.json, tables.csv, tables.tex, speed.csv, speed.tex, figures\n", plan.options.out.c_str());
 }
 
 void run(const Common& common, BenchmarkFlags flags) {

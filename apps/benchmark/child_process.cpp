@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -110,13 +111,11 @@ std::optional<ProcessEnd> ChildProcess::poll() {
   if (waitpid(pid_, &status, WNOHANG) == pid_) return ended(status);
   const double memory = group_memory_mb(pid_);
   peak_memory_mb_ = std::max(peak_memory_mb_, memory);
-  char text[120];
+  // Words without measured values: tables of two runs are to be equal.
   if (memory > limits_.memory_mb) {
-    std::snprintf(text, sizeof(text), "stopped at %.0f MB (limit %.0f MB)", memory, limits_.memory_mb);
-    verdict_ = text;
+    verdict_ = "stopped at the memory limit of " + std::to_string(std::lround(limits_.memory_mb)) + " MB";
   } else if (seconds() > limits_.seconds) {
-    std::snprintf(text, sizeof(text), "stopped after %.0f s (limit)", limits_.seconds);
-    verdict_ = text;
+    verdict_ = "stopped at the time limit of " + std::to_string(std::lround(limits_.seconds)) + " s";
   } else {
     return std::nullopt;
   }
