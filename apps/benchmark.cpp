@@ -68,6 +68,7 @@ void run(const Common& common, BenchmarkFlags flags) {
   ensure_output_folder(plan.options.out);
   if (!flags.report_only) write_plan(plan);
   if (flags.plan_only) {
+    remove_unsettled_records(plan.options.out, plan.jobs, flags.runner.retry_failed);
     std::printf("%s/plan.json: %zu jobs\n", plan.options.out.c_str(), plan.jobs.size());
     return;
   }

@@ -227,6 +227,13 @@ std::string run_one_job(const std::string& out, const std::vector<Job>& jobs, co
   }
 }
 
+void remove_unsettled_records(const std::string& out, const std::vector<Job>& jobs, bool retry_failed) {
+  const std::vector<std::string> prints = fingerprints(jobs);
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (!is_settled(out, jobs[i], prints[i], retry_failed)) fs::remove(record_file(out, jobs[i].id));
+  }
+}
+
 std::vector<JobRecord> settled_records(const std::string& out, const std::vector<Job>& jobs) {
   const std::vector<std::string> prints = fingerprints(jobs);
   std::vector<JobRecord> records;

@@ -33,6 +33,9 @@ RunnerOutcome run_jobs(const std::string& out, const std::vector<Job>& jobs, con
 std::string run_one_job(const std::string& out, const std::vector<Job>& jobs, const std::string& id,
                         const RunnerOptions& options, const std::string& program);
 
+/// Takes away the records of all jobs that are not settled: a scheduler that goes by files sees what is left to do.
+void remove_unsettled_records(const std::string& out, const std::vector<Job>& jobs, bool retry_failed);
+
 /// A job's record as it counts now: with a fault "needs ..." where something before it failed, "not run yet" if it
 /// never ran as it stands in the list.
 std::vector<JobRecord> settled_records(const std::string& out, const std::vector<Job>& jobs);

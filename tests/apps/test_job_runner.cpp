@@ -157,6 +157,14 @@ TEST_F(JobRunner, OneJobAloneWaitsForWhatItNeeds) {
   EXPECT_THROW(run_one_job(out, jobs, "c", two_at_a_time(), "-"), InputError);
 }
 
+TEST_F(JobRunner, RecordsOfAnotherPlanAreTakenAway) {
+  const std::vector<Job> jobs{shell_job("a", "true"), shell_job("b", "true")};
+  run(jobs);
+  remove_unsettled_records(out, {shell_job("a", "true"), shell_job("b", "true # changed")}, false);
+  EXPECT_TRUE(std::filesystem::exists(record_file(out, "a")));
+  EXPECT_FALSE(std::filesystem::exists(record_file(out, "b")));
+}
+
 TEST_F(JobRunner, ADamagedRecordCountsAsNone) {
   const std::vector<Job> jobs{shell_job("a", append("a"))};
   run(jobs);
