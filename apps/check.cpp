@@ -2,9 +2,12 @@
 // Copyright 2026 The odosplat authors
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "benchmark/checksum.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/convention_check.hpp"
+#include "odosplat/io/atomic_file.hpp"
 #include "sequence_flags.hpp"
 #include "support.hpp"
 
@@ -31,7 +34,35 @@ DepthFrames depth_frames(const Sequence& sequence) {
   return found;
 }
 
-void run(SequenceFlags flags, const ConventionOptions& options) {
+/// Of every file that the sequence lists, and of its true poses as read.
+std::string checksum_of(const Sequence& sequence) {
+  Checksum sum;
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    if (interrupted()) throw Interrupted();
+    for (const std::string& file : {sequence.color_file(i), sequence.depth_file(i)}) {
+      if (!file.empty()) sum.add(read_file(file));
+    }
+  }
+  for (const StampedPose& pose : sequence.truth()) {
+    char line[200];
+    const Eigen::Vector3d t = pose.T_world_camera.translation();
+    const Eigen::Vector3d r = so3_log(pose.T_world_camera.rotation());
+    std::snprintf(line, sizeof(line), "%.6f %.6f %.6f %.6f %.6f %.6f %.6f\n", pose.time, t.x(), t.y(), t.z(), r.x(),
+                  r.y(), r.z());
+    sum.add(line);
+  }
+  return sum.text();
+}
+
+void write_json(const std::string& file, const Sequence& sequence, const ConventionReport& report) {
+  const nlohmann::ordered_json json{{"name", sequence.name()},   {"layout", sequence.layout()},
+                                    {"frames", sequence.size()}, {"pairs", report.pairs},
+                                    {"verdict", report.verdict}, {"checksum", checksum_of(sequence)}};
+  write_file_atomically(file, json.dump(2) + "\n");
+}
+
+void run(SequenceFlags flags, const ConventionOptions& options, const std::string& json) {
+  if (!json.empty()) ensure_output_file(json);
   flags.options.as_stored = true;
   const Sequence sequence = open_sequence(flags);
   DepthFrames frames = depth_frames(sequence);
@@ -47,6 +78,7 @@ void run(SequenceFlags flags, const ConventionOptions& options) {
   std::printf("depth of one image reprojected into another %s frames on, %d pairs\n", gap.c_str(), report.pairs);
   std::printf("%s", convention_table(report, sequence.camera()).c_str());
   std::printf("%s\n", report.verdict.c_str());
+  if (!json.empty()) write_json(json, sequence, report);
 }
 
 }  // namespace
@@ -59,7 +91,9 @@ void add_check(CLI::App& app, Common& common) {
   add_sequence_flags(command, *flags);
   command->add_option("--gap", options->gap, "frames between the two images of a pair");
   command->add_option("--pairs", options->pairs, "pairs of images");
-  command->final_callback([flags, options] { run(*flags, *options); });
+  auto json = std::make_shared<std::string>();
+  command->add_option("--json", *json, "file to write the verdict and a checksum of the sequence's data to");
+  command->final_callback([flags, options, json] { run(*flags, *options, *json); });
 }
 
 }  // namespace odosplat::apps

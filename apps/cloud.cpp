@@ -17,7 +17,8 @@ namespace odosplat::apps {
 namespace {
 
 struct CloudFlags {
-  SequenceFlags sequence;
+  std::vector<std::string> sequences;  // in one world frame
+  SequenceFlags layout;
   std::vector<std::string> from;
   std::vector<double> origin{0.0, 0.0, 0.0};
   std::string out;
@@ -27,12 +28,10 @@ struct CloudFlags {
   CloudOptions cloud;
 };
 
-PointCloud cloud_of_sequence(const CloudFlags& flags) {
-  const Sequence sequence = open_sequence(flags.sequence);
+void add_frames(const Sequence& sequence, const CloudFlags& flags, CloudBuilder& builder) {
   const FrameRange range = flags.frames.empty() ? FrameRange() : parse_frames(flags.frames);
   const std::vector<std::size_t> frames = posed_frames(sequence, flags.every, range);
-  CloudBuilder builder(flags.cloud);
-  Progress progress("cloud", static_cast<long>(frames.size()));
+  Progress progress("cloud " + sequence.name(), static_cast<long>(frames.size()));
   long done = 0;
   for (const std::size_t i : frames) {
     if (interrupted()) throw Interrupted();
@@ -42,8 +41,14 @@ PointCloud cloud_of_sequence(const CloudFlags& flags) {
     progress.update(++done, std::to_string(builder.voxels()) + " points");
   }
   progress.finish();
+}
+
+PointCloud cloud_of_sequences(const CloudFlags& flags) {
+  CloudBuilder builder(flags.cloud);
+  for (const std::string& path : flags.sequences)
+    add_frames(open_sequence({path, flags.layout.options}), flags, builder);
   PointCloud cloud = builder.finish();
-  if (cloud.size() == 0) throw InputError(flags.sequence.path, "no frame has both a pose and depth");
+  if (cloud.size() == 0) throw InputError(flags.sequences[0], "no frame has both a pose and depth");
   return cloud;
 }
 
@@ -55,11 +60,11 @@ std::vector<std::string> notes_of(const Eigen::Vector3d& origin) {
 }
 
 void run(const CloudFlags& flags) {
-  if (flags.sequence.path.empty() && flags.from.empty()) throw InputError("SEQ", "or --from is needed");
+  if (flags.sequences.empty() && flags.from.empty()) throw InputError("SEQ", "or --from is needed");
   ensure_output_file(flags.out);
   const Eigen::Vector3d origin(flags.origin[0], flags.origin[1], flags.origin[2]);
   PointCloud cloud =
-      flags.from.empty() ? cloud_of_sequence(flags) : read_thinned(flags.from, flags.cloud.voxel, origin);
+      flags.from.empty() ? cloud_of_sequences(flags) : read_thinned(flags.from, flags.cloud.voxel, origin);
   if (flags.remove_outliers) cloud = without_outliers(cloud);
   write_point_cloud(flags.out, cloud, notes_of(origin));
   std::printf("%s: %zu points\n", flags.out.c_str(), cloud.size());
@@ -69,9 +74,10 @@ void run(const CloudFlags& flags) {
 
 void add_cloud(CLI::App& app, Common& common) {
   CLI::App* command = add_command(app, common, "cloud",
-                                  "make a point cloud from a sequence's depth and true poses, or from other clouds");
+                                  "make a point cloud from sequences' depth and true poses, or from other clouds");
   auto flags = std::make_shared<CloudFlags>();
-  CLI::Option* sequence = add_sequence_flags(command, flags->sequence)->required(false);
+  CLI::Option* sequence = command->add_option("SEQ", flags->sequences, "sequences in one world frame");
+  add_layout_flags(command, flags->layout);
   CLI::Option* from = command->add_option("--from", flags->from,
                                           std::string(cloud_formats) + " to thin instead; may be given several times");
   from->excludes(sequence)->expected(1)->take_all();

@@ -29,6 +29,8 @@ void add_relocalise(CLI::App& app, Common& common);
 void add_eval(CLI::App& app, Common& common);
 void add_eval_depth(CLI::App& app, Common& common);
 void add_view(CLI::App& app, Common& common);
+void add_benchmark(CLI::App& app, Common& common);
+void add_synthesize(CLI::App& app, Common& common);
 void add_demo(CLI::App& app, Common& common);
 
 }  // namespace odosplat::apps

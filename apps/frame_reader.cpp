@@ -7,8 +7,10 @@
 
 namespace odosplat::apps {
 
-FrameReader::FrameReader(const Sequence& sequence, std::size_t ahead)
-    : sequence_(sequence), ahead_(ahead), thread_([this] { run(); }) {}
+FrameReader::FrameReader(const Sequence& sequence, const FrameRange& range, std::size_t ahead)
+    : sequence_(sequence), range_{range.begin, std::min(range.end, sequence.size())}, ahead_(ahead), thread_([this] {
+        run();
+      }) {}
 
 FrameReader::~FrameReader() {
   {
@@ -49,11 +51,11 @@ FrameReader::Entry FrameReader::read(std::size_t i) const {
 
 void FrameReader::run() {
   std::unique_lock lock(mutex_);
-  for (std::size_t next = 0; next < sequence_.size(); ++next) {
+  for (std::size_t next = range_.begin; next < range_.end; ++next) {
     changed_.wait(lock, [this] { return stop_ || entries_.size() < ahead_; });
     if (stop_) return;
     next = std::max(next, wanted_);
-    if (next >= sequence_.size()) return;
+    if (next >= range_.end) return;
     lock.unlock();
     Entry entry = read(next);
     lock.lock();

@@ -11,14 +11,16 @@
 
 #include "odosplat/core/image.hpp"
 #include "odosplat/io/sequence.hpp"
+#include "sequence_flags.hpp"
 
 namespace odosplat::apps {
 
-/// Reads a sequence's grey images in order on a thread of its own, ahead of whoever uses them, and keeps at most
-/// `ahead` of them. What reading a frame throws is thrown by the take() that wants it. take() from one thread.
+/// Reads grey images of a sequence's frames in a range, in order on a thread of its own, ahead of whoever uses them,
+/// and keeps at most `ahead` of them. What reading a frame throws is thrown by the take() that wants it. take() from
+/// one thread.
 class FrameReader {
  public:
-  explicit FrameReader(const Sequence& sequence, std::size_t ahead = 8);
+  explicit FrameReader(const Sequence& sequence, const FrameRange& range = {}, std::size_t ahead = 8);
   ~FrameReader();
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;
@@ -38,6 +40,7 @@ class FrameReader {
   Entry read(std::size_t i) const;
 
   const Sequence sequence_;
+  const FrameRange range_;
   const std::size_t ahead_;
   std::mutex mutex_;
   std::condition_variable changed_;

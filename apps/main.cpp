@@ -24,6 +24,8 @@ int main(int argc, char** argv) {
   apps::add_eval(app, common);
   apps::add_eval_depth(app, common);
   apps::add_view(app, common);
+  apps::add_benchmark(app, common);
+  apps::add_synthesize(app, common);
   apps::add_demo(app, common);
   return apps::run_program(app, argc, argv);
 }

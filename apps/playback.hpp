@@ -7,15 +7,16 @@
 #include <optional>
 
 #include "odosplat/io/sequence.hpp"
+#include "sequence_flags.hpp"
 
 namespace odosplat::apps {
 
-/// Hands out a sequence's frames at the rate of their stamps, as a camera would: frame i comes (time(i) - time(0))
-/// seconds after frame 0, which comes at construction. Who asks late gets the newest that has come; those before it are
-/// dropped.
+/// Hands out frames of a sequence at the rate of their stamps, as a camera would: frame i comes (time(i) - time(begin))
+/// seconds after the range's first, which comes at construction. Who asks late gets the newest that has come; those
+/// before it are dropped.
 class Playback {
  public:
-  explicit Playback(const Sequence& sequence);
+  Playback(const Sequence& sequence, const FrameRange& range);
 
   /// Waits for the next frame if none has come since the last call. Nothing after the last frame.
   std::optional<std::size_t> next();
@@ -28,8 +29,9 @@ class Playback {
   Clock::time_point due(std::size_t i) const;
 
   const Sequence sequence_;
+  const FrameRange range_;
   const Clock::time_point start_;
-  std::size_t next_ = 0;
+  std::size_t next_;
   std::size_t dropped_ = 0;
 };
 

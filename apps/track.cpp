@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "track.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <sstream>
@@ -18,7 +19,7 @@
 namespace odosplat::apps {
 namespace {
 
-SE3 start_pose(const TrackJob& job, const Sequence& sequence) {
+SE3 start_pose(const TrackJob& job, const Sequence& sequence, const FrameRange& range) {
   if (job.start != "truth") {
     double v[7];
     std::istringstream text(job.start);
@@ -30,9 +31,10 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence) {
     if (!(q.norm() > 1e-6)) throw InputError("--start", "the quaternion has length zero");
     return {q, Eigen::Vector3d(v[0], v[1], v[2])};
   }
-  for (std::size_t i = 0; i < sequence.size(); ++i) {
+  for (std::size_t i = range.begin; i < range.end; ++i) {
     if (!sequence.T_world_camera(i)) continue;
-    if (i > 0) throw InputError(sequence.name(), "its first image has no true pose to start from; give --start");
+    if (i > range.begin)
+      throw InputError(sequence.name(), "its first image has no true pose to start from; give --start");
     log_info("start pose: the sequence's first true pose; nothing more of the truth is used");
     return *sequence.T_world_camera(i);
   }
@@ -42,17 +44,18 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence) {
 /// A run in the making: what the two ways of playing a sequence share.
 class Run {
  public:
-  Run(const Sequence& sequence, OpenedView& opened, Odometry& odometry, TrackRecord& record)
+  Run(const Sequence& sequence, const FrameRange& range, OpenedView& opened, Odometry& odometry, TrackRecord& record)
       : sequence_(sequence),
+        range_(range),
         opened_(opened),
         odometry_(odometry),
         record_(record),
-        reader_(sequence),
-        progress_("track", static_cast<long>(sequence.size())) {}
+        reader_(sequence, range),
+        progress_("track", static_cast<long>(range.end - range.begin)) {}
 
   /// Every frame, one after the other. False after Ctrl-C.
   bool play() {
-    for (std::size_t i = 0; i < sequence_.size(); ++i) {
+    for (std::size_t i = range_.begin; i < range_.end; ++i) {
       if (interrupted()) return false;
       track(i);
     }
@@ -62,7 +65,7 @@ class Run {
 
   /// At the sequence's own rate: frames that are no longer the newest are dropped.
   bool play_in_real_time() {
-    Playback playback(sequence_);
+    Playback playback(sequence_, range_);
     while (const std::optional<std::size_t> i = playback.next()) {
       if (interrupted()) return false;
       record_.drop(playback.dropped());
@@ -87,10 +90,11 @@ class Run {
     std::string words = to_string(result.status) + "  " + std::to_string(s.keyframes) + " keyframes  " +
                         std::to_string(s.lost) + " lost";
     if (record_.dropped() > 0) words += "  " + std::to_string(record_.dropped()) + " dropped";
-    progress_.update(static_cast<long>(i) + 1, words);
+    progress_.update(static_cast<long>(i - range_.begin) + 1, words);
   }
 
   const Sequence& sequence_;
+  const FrameRange range_;
   OpenedView& opened_;
   Odometry& odometry_;
   TrackRecord& record_;
@@ -119,15 +123,15 @@ std::unique_ptr<Relocalizer> make_relocalizer(const TrackJob& job, const Camera&
 
 namespace {
 
-std::unique_ptr<Odometry> start_odometry(const TrackJob& job, const Sequence& sequence, const OpenedView& opened,
-                                         Relocalizer* relocalizer) {
+std::unique_ptr<Odometry> start_odometry(const TrackJob& job, const Sequence& sequence, const FrameRange& range,
+                                         const OpenedView& opened, Relocalizer* relocalizer) {
   const OdometryOptions options = odometry_options(job);
   // The first rendering loads the device's programs, and a look-up renders every place: a camera would not wait.
   if (job.start == "auto") {
     if (job.realtime) relocalizer->prepare();
     return std::make_unique<Odometry>(sequence.camera(), *opened.view, options, *relocalizer);
   }
-  const SE3 T_world_camera_start = start_pose(job, sequence);
+  const SE3 T_world_camera_start = start_pose(job, sequence, range);
   if (job.realtime && opened.sensor == nullptr) {
     opened.view->render(sequence.camera(), T_world_camera_start, {true, true});
     if (relocalizer != nullptr) relocalizer->prepare();
@@ -143,14 +147,18 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
   ensure_output_folder(job.out);
   const Sequence sequence = open_sequence(job.sequence);
   if (sequence.size() == 0) throw InputError(sequence.name(), "holds no images");
+  FrameRange range = job.frames.empty() ? FrameRange() : parse_frames(job.frames);
+  range.end = std::min(range.end, sequence.size());
+  if (range.begin >= range.end)
+    throw InputError("--frames", "is " + job.frames + ", the sequence has " + std::to_string(sequence.size()));
   OpenedView opened = open_view(common, job.method, job.map, {job.depth_noise.model, job.seed});
   const auto relocalizer = make_relocalizer(job, sequence.camera(), *opened.view, opened.sensor != nullptr);
-  const auto started = start_odometry(job, sequence, opened, relocalizer.get());
+  const auto started = start_odometry(job, sequence, range, opened, relocalizer.get());
   Odometry& odometry = *started;
   TrackRecord record;
   const double cpu_before = cpu_seconds();
   const bool played = [&] {
-    Run run(sequence, opened, odometry, record);
+    Run run(sequence, range, opened, odometry, record);
     return job.realtime ? run.play_in_real_time() : run.play();
   }();
   const TrackOutcome outcome = record.outcome(odometry, cpu_seconds() - cpu_before);
@@ -172,6 +180,7 @@ void add_track(CLI::App& app, Common& common) {
       ->add_option("--out", job->out,
                    "folder for trajectory.txt, trajectory_live.txt, status.csv, covariance.csv, report.json")
       ->required();
+  command->add_option("--frames", job->frames, frames_help);
   command->add_option("--start", job->start,
                       "pose of the first image: truth, \"tx ty tz qx qy qz qw\" [m], or auto (it is looked up)");
   command->add_option("--relocalise", *relocalise, "look images up in the map when lost: on or off")

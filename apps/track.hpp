@@ -16,6 +16,7 @@ struct TrackJob {
   MapFlags map;
   std::string out;
   std::string start = "truth";  // or auto, or "tx ty tz qx qy qz qw"
+  std::string frames;           // "A:B" that are tracked; empty: all
   bool relocalise = true;       // look lost frames up in the map
   std::string places;           // to look from; empty: where the map says it was seen from
   std::optional<bool> anchor;   // of the map's colours; none: as the method has it

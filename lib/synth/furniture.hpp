@@ -56,4 +56,16 @@ void add_radiator(SceneBuilder& builder, float width, int metal);
 /// A few things that lie on tables, around the origin at z = 0: a stack of books, a bowl and a mug.
 void add_tableware(SceneBuilder& builder, const std::vector<int>& books, int paper, int bowl, int mug, Random& random);
 
+/// Television on its foot, 16 by 9.
+void add_television(SceneBuilder& builder, float width, int screen, int body);
+
+/// Vase with seven flowers of two colours, 0.5 high.
+void add_flowers(SceneBuilder& builder, int vase, int stalk, int bloom_a, int bloom_b, Random& random);
+
+/// Round clock on the wall y = 0, centre at the origin.
+void add_clock(SceneBuilder& builder, float radius, int face, int hands);
+
+/// Closed door with its frame on the wall y = 0, the middle of its foot at the origin.
+void add_door(SceneBuilder& builder, float width, float height, int leaf, int frame, int handle);
+
 }  // namespace odosplat

@@ -34,10 +34,12 @@ struct PathOptions {
   void check() const;
 };
 
-/// A hand-held path. Eye and target each follow a centripetal Catmull-Rom spline (Catmull and Rom 1974, knots after
-/// Yuksel et al. 2011) through the waypoints, with a pace that starts and ends slowly if the path is open; upon it lies
-/// tremor: a sum of sines of seeded phase from 0.3 to 9 Hz, whose power falls with frequency squared below 3 Hz (sway)
-/// and faster above, as measured for hand-held cameras. Stamps are k / fps.
+/// Share of the way done at share t of the time: 0 to 1, with a tenth of the time spent on speeding up and as much on
+/// slowing down.
+double eased(double t);
+
+/// A hand-held path. Eye and target follow a PathSpline through the waypoints, with a pace that starts and ends slowly
+/// if the path is open; upon it lies Tremor. Stamps are k / fps.
 /// Speed and turn rate between frames never exceed max_speed and max_turn: where they would, an InputError says how
 /// many frames the path needs at least. At least 2 waypoints (3 if closed).
 Trajectory hand_held_path(const std::vector<Waypoint>& waypoints, const PathOptions& options);

@@ -53,6 +53,21 @@ ColorImage picture_pattern(int width, int height, int kind, std::uint32_t seed);
 /// A book's back with bands and lines like lettering, in greys to be tinted. Does not tile.
 ColorImage book_pattern(int width, int height, std::uint32_t seed);
 
+/// Carpet tiles whose pile runs along x and y in turn. Tiles if `tiles` is even.
+ColorImage carpet_tile_pattern(int size, int tiles, const Eigen::Vector3f& color, float contrast, std::uint32_t seed);
+
+/// A suspended ceiling of mineral tiles in rails. Tiles.
+ColorImage ceiling_tile_pattern(int size, int tiles, const Eigen::Vector3f& color, const Eigen::Vector3f& rail,
+                                std::uint32_t seed);
+
+/// Keys of a keyboard. Does not tile.
+ColorImage keyboard_pattern(int width, int height, const Eigen::Vector3f& body, const Eigen::Vector3f& keys);
+
+/// A computer's screen with two windows of text, a printed page, a whiteboard with boxes and writing. None tiles.
+ColorImage screen_pattern(int width, int height, std::uint32_t seed);
+ColorImage document_pattern(int width, int height, std::uint32_t seed);
+ColorImage whiteboard_pattern(int width, int height, std::uint32_t seed);
+
 /// What is seen from a window: over azimuth (x) and elevation (y, zenith on top) sky with clouds and a line of trees.
 /// Tiles in x.
 ColorImage outdoor_pattern(int width, int height, std::uint32_t seed);

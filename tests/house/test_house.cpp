@@ -42,7 +42,7 @@ const std::map<std::string, Room> house{
       {"core", "map"},
       {"Eigen", "opencv2/core", "opencv2/imgproc", "opencv2/features2d", "opencv2/calib3d"}}},
     {"eval", {"lib/eval", {"core"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
-    {"synth", {"lib/synth", {"core", "map"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
+    {"synth", {"lib/synth", {"core", "map"}, {"Eigen", "opencv2/core", "opencv2/imgproc", "yaml-cpp"}}},
     {"viewer", {"viewer", {"core", "map", "eval"}, {"Eigen", "opencv2/core", "opencv2/imgproc", "vtk", "EGL", "GL"}}},
 };
 

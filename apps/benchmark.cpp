@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "benchmark/gather.hpp"
+#include "benchmark/job_runner.hpp"
+#include "benchmark/method_recipes.hpp"
+#include "benchmark/plan.hpp"
+#include "benchmark/report.hpp"
+#include "commands.hpp"
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
+#include "odosplat/core/progress.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "support.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+struct BenchmarkFlags {
+  BenchmarkOptions options;
+  RunnerOptions runner;
+  std::string job;
+  bool plan_only = false;
+  bool report_only = false;
+};
+
+void print_summary(const BenchmarkResults& results) {
+  std::printf("%-12s", "ATE [mm]");
+  for (const std::string& method : results.methods) std::printf(" %18s", method.c_str());
+  std::printf("\n");
+  for (const SequenceFacts& sequence : results.sequences) {
+    std::printf("%-12s", sequence.name.c_str());
+    for (const std::string& method : results.methods) {
+      const auto cell = summarise(results, sequence.name, method);
+      char text[40] = "x";
+      if (cell && cell->runs > 0) {
+        std::snprintf(text, sizeof(text), "%.2f%s", 1000.0 * cell->ate_m.median,
+                      cell->coverage.median < 0.995 ? " (part)" : "");
+      }
+      std::printf(" %18s", text);
+    }
+    std::printf("\n");
+  }
+  if (results.stand_in) std::printf("Stand-ins made by this program, not the data sets of these names.\n");
+}
+
+void report(const Plan& plan) {
+  const BenchmarkResults results = gather(plan);
+  write_reports(results, {}, plan.options.out);
+  print_summary(results);
+  std::printf("%s: report.md, report.html, report.json, tables.csv, tables.tex, speed.csv, speed.tex, figures\n", plan.options.out.c_str());
+}
+
+void run(const Common& common, BenchmarkFlags flags) {
+  const Stopwatch watch;
+  flags.runner.device = common.device;
+  flags.runner.threads = common.threads;
+  const bool go_on = flags.options.suite.empty();
+  Plan plan = go_on ? read_plan(flags.options.out) : make_plan(flags.options);
+  if (!flags.job.empty()) {
+    const std::string fault = run_one_job(plan.options.out, plan.jobs, flags.job, flags.runner, own_program());
+    std::printf("%s: %s\n", flags.job.c_str(), fault.empty() ? "done" : fault.c_str());
+    return;
+  }
+  ensure_output_folder(plan.options.out);
+  if (!flags.report_only) write_plan(plan);
+  if (flags.plan_only) {
+    remove_unsettled_records(plan.options.out, plan.jobs, flags.runner.retry_failed);
+    std::printf("%s/plan.json: %zu jobs\n", plan.options.out.c_str(), plan.jobs.size());
+    return;
+  }
+  if (!flags.report_only) {
+    const RunnerOutcome outcome = run_jobs(plan.options.out, plan.jobs, flags.runner, own_program());
+    if (outcome.stopped) {
+      log_info("stopped; the same command goes on from here");
+      throw Interrupted();
+    }
+    log_info(std::to_string(outcome.went_through) + " jobs done, " + std::to_string(outcome.failed) +
+             " failed, after " + format_duration(watch.seconds()));
+  }
+  report(plan);
+}
+
+}  // namespace
+
+void add_benchmark(CLI::App& app, Common& common) {
+  CLI::App* command =
+      add_command(app, common, "benchmark",
+                  "every method on every sequence of a suite: the paper's tables and figures. Run again "
+                  "with the same --out it goes on where it was");
+  auto flags = std::make_shared<BenchmarkFlags>();
+  BenchmarkOptions& o = flags->options;
+  RunnerOptions& r = flags->runner;
+  std::string methods;
+  for (const std::string& name : built_in_methods()) methods += (methods.empty() ? "" : ", ") + name;
+  command->add_option(
+      "--suite", o.suite,
+      "synthetic (stand-ins made here), icl (the paper's recordings, see --root) or a suite file (YAML); "
+      "not given: what --out was begun with");
+  command->add_option("--out", o.out, "folder for reports, figures, maps and runs")->required();
+  command->add_option("--root", o.root, "folder of the recordings (default: the suite file's)");
+  command->add_option("--methods", o.methods, methods + ", or the suite's own (default: all but gaussian_no_anchor)")
+      ->delimiter(',');
+  command->add_option("--sequences", o.sequences, "names, such as icl_1,augm_3 (default: all)")->delimiter(',');
+  command->add_option("--runs", o.runs, "runs of each method on each sequence, each with a seed of its own");
+  command->add_option("--size", o.size, "WIDTHxHEIGHT of stand-ins [px]");
+  command->add_option("--mapping", o.mapping,
+                      "every: maps of every tenth frame of the tested sequences, as in the paper; split: of other "
+                      "sequences than the tested one");
+  command->add_flag("--quick", o.quick, "200 frames a sequence and short training");
+  command->add_option("--seed", o.seed, "seed of stand-ins and, with the run's number added, of the methods");
+  command->add_option("--cache", o.cache,
+                      "folder of stand-ins, shared by benchmarks (default: ODOSPLAT_CACHE_DIR, else "
+                      "~/.cache/odosplat, each with /stand-ins)");
+  command->add_option("--jobs", r.jobs, "processes at a time, 0 = one a core")->check(CLI::NonNegativeNumber);
+  command->add_option("--time-limit", r.time_limit, "a job is stopped after this time [s]")->check(CLI::PositiveNumber);
+  command->add_option("--memory-limit", r.memory_limit, "a job is stopped at this resident size [MB]")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--retry-failed", r.retry_failed, "run jobs again that failed before");
+  command->add_flag("--plan", flags->plan_only, "only write OUT/plan.json, for a scheduler of one's own");
+  command->add_option("--job", flags->job, "run one job of OUT/plan.json, by its id");
+  command->add_flag("--report", flags->report_only, "only write the reports of what there is");
+  command->final_callback([&common, flags] { run(common, *flags); });
+}
+
+}  // namespace odosplat::apps

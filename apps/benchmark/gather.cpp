@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "gather.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "job_runner.hpp"
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/sequence.hpp"
+#include "odosplat/io/trajectory_file.hpp"
+#include "sequence_flags.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+using Json = nlohmann::json;
+using Faults = std::map<std::string, std::string>;  // of the jobs that have one
+
+Json read_json(const std::string& file) {
+  try {
+    return Json::parse(read_file(file));
+  } catch (const Json::exception& e) {
+    throw InputError(file, std::string("is damaged: ") + e.what());
+  }
+}
+
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(file, line)) {
+    const auto colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown processor";
+}
+
+std::string machine() { return processor() + ", " + std::to_string(std::thread::hardware_concurrency()) + " cores"; }
+
+/// True poses of the tested images, with the images' stamps.
+Trajectory truth_of_images(const Sequence& sequence, const FrameRange& range) {
+  Trajectory truth;
+  for (std::size_t i = range.begin; i < std::min(range.end, sequence.size()); ++i) {
+    if (const auto pose = sequence.T_world_camera(i)) truth.push_back({sequence.time(i), *pose, sequence.time_text(i)});
+  }
+  return truth;
+}
+
+SequenceFacts sequence_facts(const PlannedSequence& planned, const Faults& faults) {
+  SequenceFacts facts;
+  facts.name = planned.name;
+  facts.scene = planned.scene;
+  facts.words = planned.words;
+  facts.path = planned.path;
+  facts.stand_in = planned.stand_in;
+  if (const auto fault = faults.find(planned.job); fault != faults.end()) {
+    facts.fault = fault->second;
+    return facts;
+  }
+  try {
+    const Sequence sequence = Sequence::open(planned.path);
+    const FrameRange range = planned.frames.empty() ? FrameRange() : parse_frames(planned.frames);
+    const std::size_t end = std::min(range.end, sequence.size());
+    facts.frames = static_cast<int>(end - std::min(range.begin, end));
+    facts.width = sequence.camera().width;
+    facts.height = sequence.camera().height;
+    facts.truth = truth_of_images(sequence, range);
+    if (facts.truth.size() > 1) facts.seconds = facts.truth.back().time - facts.truth.front().time;
+    for (std::size_t i = 1; i < facts.truth.size(); ++i) {
+      facts.length_m +=
+          (facts.truth[i].T_world_camera.translation() - facts.truth[i - 1].T_world_camera.translation()).norm();
+    }
+    if (const auto fault = faults.find(planned.check_job); fault != faults.end()) {
+      facts.convention = "check: " + fault->second;
+    } else {
+      const Json check = read_json(planned.check_file);
+      facts.convention = check.value("verdict", "");
+      facts.checksum = check.value("checksum", "");
+      facts.texture = check.value("texture_share", -1.0);
+    }
+  } catch (const InputError& e) {
+    facts.fault = e.what();
+  }
+  return facts;
+}
+
+MapFacts map_facts(const PlannedMap& planned, const Faults& faults) {
+  MapFacts facts;
+  facts.name = planned.name;
+  facts.preset = planned.preset;
+  if (const auto fault = faults.find(planned.job); fault != faults.end()) {
+    facts.fault = fault->second;
+    return facts;
+  }
+  try {
+    const Json report = read_json(planned.report);
+    facts.gaussians = report.value("gaussians", std::size_t{0});
+    facts.iterations = report.value("iterations", 0);
+    facts.seconds = report.value("seconds", 0.0);
+    facts.psnr_db = report.value("psnr_db", 0.0);
+    facts.peak_memory_mb = report.value("peak_memory_mb", 0.0);
+  } catch (const InputError& e) {
+    facts.fault = e.what();
+  }
+  return facts;
+}
+
+/// What a run says of itself, where it does: programs of other people need not.
+void read_report(const PlannedRun& planned, const JobRecord& record, RunFacts& facts) {
+  const std::string file = planned.folder + "/report.json";
+  facts.peak_memory_mb = record.peak_memory_mb;
+  if (!std::filesystem::exists(file)) return;
+  const Json report = read_json(file);
+  facts.frames = report.value("frames", facts.frames);
+  facts.posed = report.value("posed", facts.posed);
+  facts.lost = report.value("lost", facts.lost);
+  facts.relocalisations = report.value("relocalisations", 0);
+  if (report.contains("ms_per_frame")) {
+    facts.ms_per_frame = report["ms_per_frame"].value("median", 0.0);
+    facts.p95_ms = report["ms_per_frame"].value("p95", 0.0);
+  }
+  facts.cpu_ms = report.value("cpu_ms_per_frame", 0.0);
+  facts.peak_memory_mb = report.value("peak_memory_mb", facts.peak_memory_mb);
+}
+
+EvalResult judged(const Trajectory& estimate, const Trajectory& truth, TrajectoryAlignment alignment) {
+  EvalOptions options;
+  options.alignment = alignment;
+  options.frames = truth.size();
+  return evaluate(estimate, truth, options);
+}
+
+RunFacts run_facts(const PlannedRun& planned, const SequenceFacts& sequence, const JobRecord& record) {
+  RunFacts facts;
+  facts.sequence = planned.sequence;
+  facts.method = planned.method;
+  facts.run = planned.run;
+  facts.seed = planned.seed;
+  facts.fault = record.fault.empty() ? sequence.fault : record.fault;
+  if (!facts.fault.empty()) return facts;
+  try {
+    facts.estimate = read_trajectory(planned.folder + "/trajectory.txt");
+    facts.frames = static_cast<int>(sequence.truth.size());
+    facts.posed = static_cast<int>(facts.estimate.size());
+    facts.lost = facts.frames - facts.posed;
+    read_report(planned, record, facts);
+    facts.unaligned = judged(facts.estimate, sequence.truth, TrajectoryAlignment::none);
+    facts.aligned = facts.unaligned;
+    // Too few poses, or all on a line, determine no alignment: the run stands as it is.
+    try {
+      facts.aligned = judged(facts.estimate, sequence.truth, TrajectoryAlignment::se3);
+    } catch (const InputError&) {
+      facts.aligned = facts.unaligned;
+    }
+    const std::string live = planned.folder + "/trajectory_live.txt";
+    facts.live_ate_m = facts.unaligned.ate_m.rmse;
+    if (std::filesystem::exists(live)) {
+      facts.live_ate_m = judged(read_trajectory(live), sequence.truth, TrajectoryAlignment::none).ate_m.rmse;
+    }
+  } catch (const InputError& e) {
+    facts.fault = e.what();
+  }
+  return facts;
+}
+
+/// OpenCL device that the runs used, as they say.
+std::string device_of(const Plan& plan) {
+  for (const PlannedRun& run : plan.runs) {
+    const std::string file = run.folder + "/report.json";
+    if (!std::filesystem::exists(file)) continue;
+    const std::string device = read_json(file).value("device", "none");
+    if (device != "none") return device;
+  }
+  return "none";
+}
+
+std::string command_of(const BenchmarkOptions& o, const Plan& plan) {
+  std::string command = "odosplat benchmark --suite " + o.suite;
+  if (!o.root.empty()) command += " --root " + o.root;
+  if (plan.stand_in) command += " --size " + o.size;
+  const auto list = [&](const char* flag, const std::vector<std::string>& words) {
+    for (std::size_t i = 0; i < words.size(); ++i) command += (i == 0 ? std::string(" ") + flag + " " : ",") + words[i];
+  };
+  list("--methods", o.methods);
+  list("--sequences", o.sequences);
+  if (o.runs > 1) command += " --runs " + std::to_string(o.runs);
+  if (o.mapping != "every") command += " --mapping " + o.mapping;
+  if (o.quick) command += " --quick";
+  if (o.seed != 1) command += " --seed " + std::to_string(o.seed);
+  return command + " --out DIR";
+}
+
+}  // namespace
+
+BenchmarkResults gather(const Plan& plan) {
+  BenchmarkResults results;
+  results.suite = plan.suite;
+  results.stand_in = plan.stand_in;
+  results.mapping = plan.mapping;
+  results.split = plan.options.mapping == "split";
+  results.quick = plan.quick;
+  results.methods = plan.methods;
+  results.runs = plan.options.runs;
+  results.machine = machine();
+  results.device = device_of(plan);
+  results.version = ODOSPLAT_VERSION;
+  results.command = command_of(plan.options, plan);
+
+  std::map<std::string, JobRecord> records;
+  Faults faults;
+  for (JobRecord& record : settled_records(plan.options.out, plan.jobs)) {
+    if (!record.fault.empty()) faults[record.id] = record.fault;
+    records[record.id] = std::move(record);
+  }
+  for (const PlannedSequence& s : plan.sequences) results.sequences.push_back(sequence_facts(s, faults));
+  for (const PlannedMap& m : plan.maps) results.maps.push_back(map_facts(m, faults));
+  for (const PlannedRun& run : plan.runs) {
+    const auto sequence = std::find_if(results.sequences.begin(), results.sequences.end(),
+                                       [&](const SequenceFacts& s) { return s.name == run.sequence; });
+    results.cells.push_back(run_facts(run, *sequence, records.at(run.job)));
+  }
+  return results;
+}
+
+}  // namespace odosplat::apps

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/synth/pixel_samples.hpp"
+
+#include <cmath>
+
+namespace odosplat {
+
+std::vector<Eigen::Vector2d> sample_offsets(int n) {
+  std::vector<Eigen::Vector2d> offsets;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (int i = 0; i < n; ++i) {
+    const double x = 0.7548776662466927 * (i + 1);
+    const double y = 0.5698402909980532 * (i + 1);
+    offsets.emplace_back(x - std::floor(x), y - std::floor(y));
+    mean += offsets.back() / n;
+  }
+  for (Eigen::Vector2d& o : offsets) o -= mean;
+  return offsets;
+}
+
+float sample_spacing(const Camera& camera, int n) {
+  return static_cast<float>(1.2 / (std::sqrt(static_cast<double>(n)) * camera.fx));
+}
+
+Eigen::Vector3f pixel_radiance(const Scene& scene, const Camera& camera, const Eigen::Matrix3d& R_world_camera,
+                               const Eigen::Vector3f& centre_world, int x, int y,
+                               const std::vector<Eigen::Vector2d>& offsets, float spacing, int& hint) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  RayHit hit;
+  for (const Eigen::Vector2d& o : offsets) {
+    const Ray ray{centre_world, (R_world_camera * camera.ray(x + o.x(), y + o.y())).cast<float>()};
+    if (scene.closest(ray, hit, hint)) {
+      sum += scene.radiance(ray, hit, hit.t * spacing);
+      hint = hit.triangle;
+    } else {
+      sum += scene.background(ray.direction);
+    }
+  }
+  return sum;
+}
+
+}  // namespace odosplat
