@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "benchmark/benchmark_figures.hpp"
 #include "benchmark/gather.hpp"
 #include "benchmark/job_runner.hpp"
 #include "benchmark/method_recipes.hpp"
@@ -47,11 +48,20 @@ void print_summary(const BenchmarkResults& results) {
   if (results.stand_in) std::printf("Stand-ins made by this program, not the data sets of these names.\n");
 }
 
-void report(const Plan& plan) {
+/// Map and cloud of each sequence as its runs have them, for the figures.
+std::map<std::string, MapFlags> maps_of(const Plan& plan) {
+  std::map<std::string, MapFlags> maps;
+  for (const PlannedSequence& s : plan.sequences) maps[s.name] = {s.map_file, s.cloud_file};
+  return maps;
+}
+
+void report(const Common& common, const Plan& plan) {
   const BenchmarkResults results = gather(plan);
-  write_reports(results, {}, plan.options.out);
+  const auto figures = draw_benchmark_figures(common, results, maps_of(plan), plan.options.out);
+  write_reports(results, figures, plan.options.out);
   print_summary(results);
-  std::printf("%s: report.md, report.html, report.json, tables.csv, tables.tex, speed.csv, speed.tex, figures\n", plan.options.out.c_str());
+  std::printf("%s: report.md, report.html, report.json, tables.csv, tables.tex, speed.csv, speed.tex, figures\n",
+              plan.options.out.c_str());
 }
 
 void run(const Common& common, BenchmarkFlags flags) {
@@ -81,7 +91,7 @@ void run(const Common& common, BenchmarkFlags flags) {
     log_info(std::to_string(outcome.went_through) + " jobs done, " + std::to_string(outcome.failed) +
              " failed, after " + format_duration(watch.seconds()));
   }
-  report(plan);
+  report(common, plan);
 }
 
 }  // namespace

@@ -63,10 +63,11 @@ class Planner {
   Plan make() {
     for (const SuiteSequence* s : tested_) plan_.sequences.push_back(sequence(*s));
     for (PlannedSequence& s : plan_.sequences) add_check(s);
-    for (const PlannedSequence& s : plan_.sequences) {
+    for (PlannedSequence& s : plan_.sequences) {
       for (const std::string& method : plan_.methods) {
         for (int run = 1; run <= options_.runs; ++run) add_run(s, method, run);
       }
+      find_files(s);
     }
     return std::move(plan_);
   }
@@ -276,6 +277,14 @@ class Planner {
     add_job(job);
     plan_.maps.push_back(planned);
     return {planned.file, planned.job};
+  }
+
+  /// Names the sequence's own map and cloud, if there are jobs that make them.
+  void find_files(PlannedSequence& s) const {
+    for (const Job& job : plan_.jobs) {
+      if (job.id == "map/" + s.map) s.map_file = job.outputs[0];
+      if (job.id == "cloud/" + s.map || job.id == "cloud/" + s.scene) s.cloud_file = job.outputs[0];
+    }
   }
 
   void add_check(PlannedSequence& s) {

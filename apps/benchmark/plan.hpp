@@ -24,6 +24,8 @@ struct PlannedSequence {
   std::string check_job;   // of its conventions
   std::string check_file;  // JSON that this writes
   std::string map;         // name of the map that it is tested in
+  std::string map_file;    // of our own preset; empty: no method here uses one
+  std::string cloud_file;  // likewise
 };
 
 struct PlannedMap {
