@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
+#include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/convention_check.hpp"
+#include "odosplat/eval/texture.hpp"
 #include "sequence_flags.hpp"
 #include "support.hpp"
 
@@ -31,6 +35,21 @@ DepthFrames depth_frames(const Sequence& sequence) {
   return found;
 }
 
+/// Of up to 100 images, evenly over the sequence, brought to the size at which shares are compared.
+TextureSummary texture_of(const Sequence& sequence) {
+  constexpr std::size_t most = 100;
+  const cv::Size size(320, 240);
+  const std::size_t step = std::max<std::size_t>(1, sequence.size() / most);
+  std::vector<TextureStatistic> statistics;
+  for (std::size_t i = 0; i < sequence.size(); i += step) {
+    if (interrupted()) throw Interrupted();
+    GrayImage gray = sequence.gray(i);
+    if (gray.size() != size) cv::resize(gray, gray, size, 0.0, 0.0, cv::INTER_AREA);
+    statistics.push_back(texture_statistic(gray));
+  }
+  return summarise_texture(statistics);
+}
+
 void run(SequenceFlags flags, const ConventionOptions& options) {
   flags.options.as_stored = true;
   const Sequence sequence = open_sequence(flags);
@@ -47,6 +66,12 @@ void run(SequenceFlags flags, const ConventionOptions& options) {
   std::printf("depth of one image reprojected into another %s frames on, %d pairs\n", gap.c_str(), report.pairs);
   std::printf("%s", convention_table(report, sequence.camera()).c_str());
   std::printf("%s\n", report.verdict.c_str());
+  const TextureSummary texture = texture_of(sequence);
+  std::printf(
+      "texture at 320x240: %.1f %% of pixels with a gradient over 8; blocks of 32x32: tenth %.1f, median %.1f, "
+      "ninth tenth %.1f %%, %.1f %% of them bare (%d images)\n",
+      100.0 * texture.share, 100.0 * texture.block_p10, 100.0 * texture.block_p50, 100.0 * texture.block_p90,
+      100.0 * texture.bare_blocks, texture.images);
 }
 
 }  // namespace
