@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "benchmark/checksum.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/convention_check.hpp"
+#include "odosplat/eval/texture.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "sequence_flags.hpp"
 #include "support.hpp"
@@ -34,6 +38,21 @@ DepthFrames depth_frames(const Sequence& sequence) {
   return found;
 }
 
+/// Of up to 100 images, evenly over the sequence, brought to the size at which shares are compared.
+TextureSummary texture_of(const Sequence& sequence) {
+  constexpr std::size_t most = 100;
+  const cv::Size size(320, 240);
+  const std::size_t step = std::max<std::size_t>(1, sequence.size() / most);
+  std::vector<TextureStatistic> statistics;
+  for (std::size_t i = 0; i < sequence.size(); i += step) {
+    if (interrupted()) throw Interrupted();
+    GrayImage gray = sequence.gray(i);
+    if (gray.size() != size) cv::resize(gray, gray, size, 0.0, 0.0, cv::INTER_AREA);
+    statistics.push_back(texture_statistic(gray));
+  }
+  return summarise_texture(statistics);
+}
+
 /// Of every file that the sequence lists, and of its true poses as read.
 std::string checksum_of(const Sequence& sequence) {
   Checksum sum;
@@ -54,10 +73,16 @@ std::string checksum_of(const Sequence& sequence) {
   return sum.text();
 }
 
-void write_json(const std::string& file, const Sequence& sequence, const ConventionReport& report) {
-  const nlohmann::ordered_json json{{"name", sequence.name()},   {"layout", sequence.layout()},
-                                    {"frames", sequence.size()}, {"pairs", report.pairs},
-                                    {"verdict", report.verdict}, {"checksum", checksum_of(sequence)}};
+void write_json(const std::string& file, const Sequence& sequence, const ConventionReport& report,
+                const TextureSummary& texture) {
+  const nlohmann::ordered_json json{{"name", sequence.name()},
+                                    {"layout", sequence.layout()},
+                                    {"frames", sequence.size()},
+                                    {"pairs", report.pairs},
+                                    {"verdict", report.verdict},
+                                    {"texture_share", texture.share},
+                                    {"texture_bare_blocks", texture.bare_blocks},
+                                    {"checksum", checksum_of(sequence)}};
   write_file_atomically(file, json.dump(2) + "\n");
 }
 
@@ -78,7 +103,13 @@ void run(SequenceFlags flags, const ConventionOptions& options, const std::strin
   std::printf("depth of one image reprojected into another %s frames on, %d pairs\n", gap.c_str(), report.pairs);
   std::printf("%s", convention_table(report, sequence.camera()).c_str());
   std::printf("%s\n", report.verdict.c_str());
-  if (!json.empty()) write_json(json, sequence, report);
+  const TextureSummary texture = texture_of(sequence);
+  std::printf(
+      "texture at 320x240: %.1f %% of pixels with a gradient over 8; blocks of 32x32: tenth %.1f, median %.1f, "
+      "ninth tenth %.1f %%, %.1f %% of them bare (%d images)\n",
+      100.0 * texture.share, 100.0 * texture.block_p10, 100.0 * texture.block_p50, 100.0 * texture.block_p90,
+      100.0 * texture.bare_blocks, texture.images);
+  if (!json.empty()) write_json(json, sequence, report, texture);
 }
 
 }  // namespace

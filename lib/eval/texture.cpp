@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "odosplat/eval/statistics.hpp"
+
 namespace odosplat {
 namespace {
 
@@ -30,11 +32,6 @@ Count count_strong(const GrayImage& gray, int x0, int y0, int x1, int y1) {
   return count;
 }
 
-double quantile(const std::vector<double>& sorted, double q) {
-  if (sorted.empty()) return 0.0;
-  return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1) + 0.5)];
-}
-
 }  // namespace
 
 TextureStatistic texture_statistic(const GrayImage& gray) {
@@ -57,9 +54,9 @@ TextureSummary summarise_texture(const std::vector<TextureStatistic>& statistics
   }
   std::sort(blocks.begin(), blocks.end());
   summary.images = static_cast<int>(statistics.size());
-  summary.block_p10 = quantile(blocks, 0.1);
-  summary.block_p50 = quantile(blocks, 0.5);
-  summary.block_p90 = quantile(blocks, 0.9);
+  summary.block_p10 = percentile(blocks, 10.0);
+  summary.block_p50 = percentile(blocks, 50.0);
+  summary.block_p90 = percentile(blocks, 90.0);
   const auto first = std::lower_bound(blocks.begin(), blocks.end(), bare);
   if (!blocks.empty())
     summary.bare_blocks = static_cast<double>(first - blocks.begin()) / static_cast<double>(blocks.size());

@@ -248,6 +248,90 @@ bool Bvh::closest(const Ray& ray, RayHit& hit, int hint) const {
   }
 }
 
+/// Four rays, a lane each, against one box.
+struct Bvh::Packet {
+  explicit Packet(const std::array<Ray, 4>& rays) {
+    for (int i = 0; i < 4; ++i) {
+      const Ray& ray = rays[static_cast<std::size_t>(i)];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float d = ray.direction[static_cast<int>(axis)];
+        origin[axis][i] = ray.origin[static_cast<int>(axis)];
+        inverse[axis][i] = 1.0F / (d == 0.0F ? 1e-20F : d);
+      }
+      t_max[i] = ray.t_max;
+    }
+  }
+
+  /// A lower bound of the parameter where the first ray enters the box; infinity if none does.
+  [[gnu::always_inline]] inline float enter(const Node& box) const {
+    Eigen::Array4f t0 = Eigen::Array4f::Zero();
+    Eigen::Array4f t1 = t_max;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Eigen::Array4f a = (box.low[static_cast<int>(axis)] - origin[axis]) * inverse[axis];
+      const Eigen::Array4f b = (box.high[static_cast<int>(axis)] - origin[axis]) * inverse[axis];
+      t0 = t0.max(a.min(b));
+      t1 = t1.min(a.max(b));
+    }
+    return (t1 * 1.000001F - t0).maxCoeff() >= 0.0F ? t0.minCoeff() : std::numeric_limits<float>::infinity();
+  }
+
+  std::array<Eigen::Array4f, 3> origin;
+  std::array<Eigen::Array4f, 3> inverse;
+  Eigen::Array4f t_max;
+};
+
+void Bvh::closest4(const std::array<Ray, 4>& rays, std::array<RayHit, 4>& hits, std::array<bool, 4>& found,
+                   int hint) const {
+  found.fill(false);
+  if (nodes_.empty()) return;
+  Packet packet(rays);
+  const std::array<Traversal, 4> single{Traversal(rays[0]), Traversal(rays[1]), Traversal(rays[2]), Traversal(rays[3])};
+  auto test = [&](const Packed& triangle) {
+    for (std::size_t r = 0; r < 4; ++r) {
+      const auto lane = static_cast<int>(r);
+      if (!intersect(triangle, single[r], packet.t_max[lane], hits[r])) continue;
+      found[r] = true;
+      packet.t_max[lane] = hits[r].t;
+    }
+  };
+  if (hint >= 0) test(triangles_[static_cast<std::size_t>(place_[static_cast<std::size_t>(hint)])]);
+  constexpr float endless = std::numeric_limits<float>::infinity();
+  struct Entry {
+    int node;
+    float t;
+  };
+  std::array<Entry, max_depth + 4> stack;
+  int top = 0;
+  int node_index = 0;
+  if (packet.enter(nodes_[0]) == endless) return;
+  for (;;) {
+    const Node& node = nodes_[static_cast<std::size_t>(node_index)];
+    if (node.count > 0) {
+      for (int i = node.next; i < node.next + node.count; ++i) test(triangles_[static_cast<std::size_t>(i)]);
+    } else {
+      int near = node_index + 1;
+      int far = node.next;
+      float t_near = packet.enter(nodes_[static_cast<std::size_t>(near)]);
+      float t_far = packet.enter(nodes_[static_cast<std::size_t>(far)]);
+      if (t_far < t_near) {
+        std::swap(near, far);
+        std::swap(t_near, t_far);
+      }
+      if (t_far < endless) stack[static_cast<std::size_t>(top++)] = {far, t_far};
+      if (t_near < endless) {
+        node_index = near;
+        continue;
+      }
+    }
+    const float farthest = packet.t_max.maxCoeff();
+    do {
+      if (top == 0) return;
+      --top;
+      node_index = stack[static_cast<std::size_t>(top)].node;
+    } while (stack[static_cast<std::size_t>(top)].t > farthest);
+  }
+}
+
 bool Bvh::any(const Ray& ray) const {
   if (nodes_.empty()) return false;
   const Traversal traversal(ray);

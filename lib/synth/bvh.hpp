@@ -39,6 +39,10 @@ class Bvh {
   /// Nearest hit; false if none. hint: a triangle that is likely to be hit (-1: none); the answer does not depend on it
   /// unless two triangles are hit at the very same t.
   bool closest(const Ray& ray, RayHit& hit, int hint = -1) const;
+  /// Four rays that lie close together, at the price of about two: found[i] and hits[i] as closest() has them. All must
+  /// start at t_min = 0.
+  void closest4(const std::array<Ray, 4>& rays, std::array<RayHit, 4>& hits, std::array<bool, 4>& found,
+                int hint = -1) const;
   /// Whether any opaque triangle is hit.
   bool any(const Ray& ray) const;
 
@@ -55,6 +59,7 @@ class Bvh {
     bool opaque = true;
   };
   struct Traversal;
+  struct Packet;
   struct Item;
 
   void build(std::vector<Item>& items, int begin, int end, int depth);

@@ -2,6 +2,8 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/synth/pixel_samples.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace odosplat {
@@ -27,14 +29,19 @@ Eigen::Vector3f pixel_radiance(const Scene& scene, const Camera& camera, const E
                                const Eigen::Vector3f& centre_world, int x, int y,
                                const std::vector<Eigen::Vector2d>& offsets, float spacing, int& hint) {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  RayHit hit;
-  for (const Eigen::Vector2d& o : offsets) {
-    const Ray ray{centre_world, (R_world_camera * camera.ray(x + o.x(), y + o.y())).cast<float>()};
-    if (scene.closest(ray, hit, hint)) {
-      sum += scene.radiance(ray, hit, hit.t * spacing);
-      hint = hit.triangle;
-    } else {
-      sum += scene.background(ray.direction);
+  const std::size_t n = offsets.size();
+  for (std::size_t first = 0; first < n; first += 4) {
+    std::array<Ray, 4> rays;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::Vector2d& o = offsets[std::min(first + i, n - 1)];
+      rays[i] = {centre_world, (R_world_camera * camera.ray(x + o.x(), y + o.y())).cast<float>()};
+    }
+    std::array<RayHit, 4> hits;
+    std::array<bool, 4> found{};
+    scene.closest4(rays, hits, found, hint);
+    hint = found[0] ? hits[0].triangle : -1;
+    for (std::size_t i = 0; i < std::min<std::size_t>(4, n - first); ++i) {
+      sum += found[i] ? scene.radiance(rays[i], hits[i], hits[i].t * spacing) : scene.background(rays[i].direction);
     }
   }
   return sum;

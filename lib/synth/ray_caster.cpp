@@ -2,6 +2,8 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/synth/ray_caster.hpp"
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "odosplat/core/error.hpp"
@@ -33,17 +35,28 @@ Rendering render(const Scene& scene, const Camera& camera, const SE3& T_world_ca
   parallel_for(camera.height, rows_a_chunk, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
       int hint = -1;
-      for (int x = 0; x < camera.width; ++x) {
-        RayHit hit;
+      for (int x0 = 0; x0 < camera.width; x0 += 4) {
         // The direction has z = 1 in the camera, so the ray parameter is the depth.
-        const Eigen::Vector3d direction = R * camera.ray(x, y);
-        if (scene.closest({centre_f, direction.cast<float>()}, hit, hint)) {
-          out.depth(y, x) = static_cast<float>(scene.plane_parameter(hit.triangle, centre, direction));
-          hint = hit.triangle;
-        } else {
-          hint = -1;
+        std::array<Ray, 4> rays;
+        std::array<Eigen::Vector3d, 4> directions;
+        for (int i = 0; i < 4; ++i) {
+          const auto k = static_cast<std::size_t>(i);
+          directions[k] = R * camera.ray(std::min(x0 + i, camera.width - 1), y);
+          rays[k] = {centre_f, directions[k].cast<float>()};
         }
-        if (!options.color) continue;
+        std::array<RayHit, 4> hits;
+        std::array<bool, 4> found{};
+        scene.closest4(rays, hits, found, hint);
+        hint = found[3] ? hits[3].triangle : -1;
+        for (int x = x0; x < std::min(x0 + 4, camera.width); ++x) {
+          const auto k = static_cast<std::size_t>(x - x0);
+          if (!found[k]) continue;
+          out.depth(y, x) = static_cast<float>(scene.plane_parameter(hits[k].triangle, centre, directions[k]));
+        }
+      }
+      if (!options.color) continue;
+      hint = -1;
+      for (int x = 0; x < camera.width; ++x) {
         const Eigen::Vector3f sum = pixel_radiance(scene, camera, R, centre_f, x, y, offsets, spacing, hint);
         const Eigen::Vector3f color = scene.develop(sum / static_cast<float>(options.samples));
         out.color(y, x) = {color.x(), color.y(), color.z()};

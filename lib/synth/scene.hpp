@@ -59,6 +59,11 @@ class Scene {
 
   /// Nearest hit; false if the ray leaves the scene. hint as in Bvh::closest.
   bool closest(const Ray& ray, RayHit& hit, int hint = -1) const { return bvh_.closest(ray, hit, hint); }
+  /// As Bvh::closest4.
+  void closest4(const std::array<Ray, 4>& rays, std::array<RayHit, 4>& hits, std::array<bool, 4>& found,
+                int hint = -1) const {
+    bvh_.closest4(rays, hits, found, hint);
+  }
   /// Whether something that casts a shadow lies on the ray.
   bool occluded(const Ray& ray) const { return bvh_.any(ray); }
 
