@@ -184,7 +184,8 @@ cv::Mat3b benchmark_errors(const BenchmarkResults& results) {
   for (const SequenceFacts& sequence : results.sequences) {
     if (sequence.truth.empty()) continue;
     ErrorPlot plot;
-    plot.size = {1000, 640};
+    // More methods, more rows of the legend.
+    plot.size = {1000, 540 + 35 * static_cast<int>(results.methods.size())};
     plot.words = "position error";
     plot.title = labelled(results, sequence.name);
     double smallest = 0.0;

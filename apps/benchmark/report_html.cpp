@@ -38,7 +38,7 @@ figcaption { max-width: 48rem; }
 @media print {
   body { font-size: 9pt; max-width: none; padding: 0; } .scroll { overflow: visible; }
   table { font-size: 8pt; } th, td { padding: .1rem .35rem; } table.wide { font-size: 6pt; }
-  table.wide th, table.wide td { padding: .1rem .22rem; } figure, tr { break-inside: avoid; } img { max-width: 12cm; }
+  table.wide th, table.wide td { padding: .1rem .18rem; } table.wide small { white-space: normal; } figure, tr { break-inside: avoid; } img { max-width: 12cm; }
   h2, h3 { break-after: avoid; }
 }
 )";
@@ -94,7 +94,12 @@ std::string cell_text(const ReportCell& cell) {
   if (cell.mark == RankMark::best) text = "<b>" + text + "</b>";
   if (cell.mark == RankMark::second) text = "<u>" + text + "</u>";
   if (cell.note > 0) text += "<sup>" + std::to_string(cell.note) + "</sup>";
-  if (!cell.spread.empty()) text += "<small>" + escaped(cell.spread) + "</small>";
+  if (!cell.spread.empty()) {
+    // In print, where nothing scrolls, a wide table breaks it there.
+    std::string spread = escaped(cell.spread);
+    spread.insert(spread.find("..") + 2, "<wbr>");
+    text += "<small>" + spread + "</small>";
+  }
   return text;
 }
 
