@@ -74,10 +74,17 @@ std::vector<std::string> with_maps(const BenchmarkResults& results, const Maps& 
   });
 }
 
-/// Near `share` of the sequence, halfway between two of the frames 0, 10, 20, ... that maps are made of.
-std::size_t frame_at(const Sequence& sequence, double share) {
-  const auto near = static_cast<std::size_t>(share * static_cast<double>(sequence.size()));
-  return std::min(near / 10 * 10 + 5, sequence.size() - 1);
+/// Near `share` of what was tested (the sequence's part with a truth in the results), halfway between two of the frames
+/// 0, 10, 20, ... that maps are made of.
+std::size_t frame_at(const Sequence& sequence, const Trajectory& truth, double share) {
+  std::size_t begin = 0;
+  std::size_t end = sequence.size();
+  if (!truth.empty()) {
+    while (begin + 1 < end && sequence.time(begin) < truth.front().time - 1e-6) ++begin;
+    while (end > begin + 1 && sequence.time(end - 1) > truth.back().time + 1e-6) --end;
+  }
+  const auto near = begin + static_cast<std::size_t>(share * static_cast<double>(end - begin));
+  return std::min(near / 10 * 10 + 5, end - 1);
 }
 
 std::string frame_words(const BenchmarkResults& results, const std::string& name, std::size_t frame) {
@@ -92,7 +99,7 @@ ReportFigure draw_association_figure(const Common& common, const BenchmarkResult
   const Sequence sequence = Sequence::open(find_sequence(results, names[0])->path);
   const MapFlags& flags = maps.at(names[0]);
   ComparedViews views = open_compared_views(common, flags);
-  const std::size_t frame = frame_at(sequence, 0.5);
+  const std::size_t frame = frame_at(sequence, find_sequence(results, names[0])->truth, 0.5);
   AssociationFigure figure = association_figure(views, sequence, frame, flags);
   figure.title = frame_words(results, names[0], frame);
   write_rgb8(folder + "/" + report.file, draw_association(figure));
@@ -117,7 +124,7 @@ ReportFigure draw_comparison_figure(const Common& common, const BenchmarkResults
     if (shape > 0.0 && std::abs(own_shape - shape) > 0.01) continue;  // its panels would be stretched
     shape = own_shape;
     ComparedViews views = open_compared_views(common, maps.at(name));
-    const std::size_t frame = frame_at(sequence, 0.3);
+    const std::size_t frame = frame_at(sequence, find_sequence(results, name)->truth, 0.3);
     figure.examples.push_back(compare_example(views, sequence, frame, frame_words(results, name, frame)));
     words += (words.empty() ? "" : "; ") + frame_words(results, name, frame);
   }
@@ -177,7 +184,8 @@ cv::Mat3b benchmark_errors(const BenchmarkResults& results) {
   for (const SequenceFacts& sequence : results.sequences) {
     if (sequence.truth.empty()) continue;
     ErrorPlot plot;
-    plot.size = {1000, 640};
+    // More methods, more rows of the legend.
+    plot.size = {1000, 540 + 35 * static_cast<int>(results.methods.size())};
     plot.words = "position error";
     plot.title = labelled(results, sequence.name);
     double smallest = 0.0;

@@ -27,7 +27,7 @@ tbody tr:last-child > * { border-bottom: 2px solid #333; }
 tbody tr:nth-child(even), tbody tr:nth-child(even) th.name { background: #f5f5f5; }
 th.group { text-align: center; border-bottom: 1px solid #999; }
 .first { border-left: 1px solid #ccc; }
-td small { display: block; color: #555; font-size: .7rem; }
+td small { display: block; color: #555; font-size: .8em; }
 sup { font-size: .7em; line-height: 0; }
 .note { font-size: .85rem; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .2rem .9rem; }
@@ -37,8 +37,9 @@ figcaption { max-width: 48rem; }
 @media (max-width: 40rem) { dl { grid-template-columns: 1fr; } dd { margin-bottom: .4rem; } }
 @media print {
   body { font-size: 9pt; max-width: none; padding: 0; } .scroll { overflow: visible; }
-  table { font-size: 8pt; } th, td { padding: .1rem .35rem; } table.wide { font-size: 6pt; }
-  table.wide th, table.wide td { padding: .1rem .22rem; } figure, tr { break-inside: avoid; } img { max-width: 12cm; }
+  table { font-size: 8pt; } th, td { padding: .1rem .35rem; } table.wide { font-size: 5.5pt; }
+  th.name:first-child { position: static; }
+  table.wide th, table.wide td { padding: .1rem .18rem; } table.wide small { white-space: normal; } figure, tr { break-inside: avoid; } img { max-width: 12cm; }
   h2, h3 { break-after: avoid; }
 }
 )";
@@ -94,7 +95,12 @@ std::string cell_text(const ReportCell& cell) {
   if (cell.mark == RankMark::best) text = "<b>" + text + "</b>";
   if (cell.mark == RankMark::second) text = "<u>" + text + "</u>";
   if (cell.note > 0) text += "<sup>" + std::to_string(cell.note) + "</sup>";
-  if (!cell.spread.empty()) text += "<small>" + escaped(cell.spread) + "</small>";
+  if (!cell.spread.empty()) {
+    // In print, where nothing scrolls, a wide table breaks it there.
+    std::string spread = escaped(cell.spread);
+    spread.insert(spread.find("..") + 2, "<wbr>");
+    text += "<small>" + spread + "</small>";
+  }
   return text;
 }
 

@@ -275,7 +275,7 @@ TEST(Reports, HtmlStandsAloneAndEscapes) {
   const std::string text = written(two_sequences(), "report.html");
   EXPECT_THAT(text, HasSubstr("<th class=\"name\">a&lt;b&gt;&amp;_c</th>"));
   EXPECT_THAT(text, Not(HasSubstr("a<b>")));
-  EXPECT_THAT(text, HasSubstr("<td class=\"first\"><b>0.0021</b><small>0.0021..0.0022</small></td>"));
+  EXPECT_THAT(text, HasSubstr("<td class=\"first\"><b>0.0021</b><small>0.0021..<wbr>0.0022</small></td>"));
   EXPECT_THAT(text, HasSubstr("<td>x<sup>1</sup></td>"));
   // A PNG's first six bytes in base64.
   EXPECT_THAT(text, HasSubstr("src=\"data:image/png;base64,iVBORw0K"));

@@ -34,7 +34,7 @@ TEST(ViewFly, FilmsACloudAlongAPath) {
   const RunResult done = run_odosplat(arguments);
   ASSERT_EQ(done.status, 0) << done.err;
   const VideoReader film((folder / "film.avi").string());
-  EXPECT_EQ(film.size(), 3U);
+  EXPECT_EQ(film.size(), 5U);
   EXPECT_NEAR(film.fps(), 10.0, 1e-6);
   EXPECT_EQ(film.frame_size().width, 320);
   arguments = fly;
