@@ -2,7 +2,6 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "odosplat/core/se3.hpp"
