@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "odosplat/core/error.hpp"
 
@@ -34,14 +35,18 @@ FrameTracker::FrameTracker(const FrameTrackerOptions& options) : options_(option
   options_.check();
 }
 
-TrackedFrame FrameTracker::track(const FramePyramid& pyramid, double time) {
+TrackedFrame FrameTracker::track(std::shared_ptr<const FramePyramid> pyramid, double time) {
   TrackedFrame frame;
   frame.was_lost = lost_;
-  if (!lost_) frame.alignment = track_against_reference(pyramid, time);
-  if (lost_ || !believed(frame.alignment, false)) frame.alignment = search_references(pyramid);
-  const Alignment& alignment = frame.alignment;
-  frame.found = believed(alignment, lost_);
+  // Light that flickers over the rows is nearly that of the last frame.
+  frame.image = make_even(std::move(pyramid), last_row_gain_);
+  if (!lost_) frame.alignment = track_against_reference(*frame.image.even, time);
+  if (lost_ || !believed(frame.alignment, false)) frame.alignment = search_references(*frame.image.even);
+  frame.found = believed(frame.alignment, lost_);
   if (!frame.found) return frame;
+  even_rows(tracker_, *reference().points, frame.image, frame.alignment);
+  last_row_gain_ = frame.image.row_gain;
+  const Alignment& alignment = frame.alignment;
   const ReferenceFrame& host = reference();
   frame.doubtful = !lost_ && !as_good_as_last(alignment) && alignment.correlation < options_.accept.sure_correlation;
   frame.keyframe = host.id;
@@ -94,6 +99,7 @@ void FrameTracker::confirm(double time, const SE3& T_world_camera) {
 
 void FrameTracker::lose() {
   history_.stop();
+  last_row_gain_.clear();
   lost_ = !references_.empty();
 }
 

@@ -2,9 +2,11 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "odosplat/odometry/even_rows.hpp"
 #include "odosplat/odometry/keyframe_policy.hpp"
 #include "odosplat/odometry/motion_model.hpp"
 #include "odosplat/odometry/reference_frame.hpp"
@@ -46,6 +48,7 @@ struct FrameTrackerOptions {
 struct TrackedFrame {
   bool found = false;
   bool was_lost = false;  // found, or not, after a loss
+  EvenFrame image;        // as it was compared
   Alignment alignment;    // against the reference
   int keyframe = -1;      // the reference's number
   SE3 T_keyframe_camera;
@@ -71,7 +74,7 @@ class FrameTracker {
   const ReferenceFrame& newest() const { return references_.back(); }
 
   /// Finds the frame. The caller tells the pose at last by confirm(), as a keyframe may change it, or by lose().
-  TrackedFrame track(const FramePyramid& pyramid, double time);
+  TrackedFrame track(std::shared_ptr<const FramePyramid> pyramid, double time);
 
   /// Takes over what the back end says of its keyframes (oldest first, not empty). Frames are compared with the newest
   /// from now on if that is new; else with the same one as before, where it is.
@@ -102,6 +105,7 @@ class FrameTracker {
   std::vector<ReferenceFrame> references_;  // oldest first
   std::size_t current_ = 0;                 // tracked against: the newest, or after a loss another
   MotionHistory history_;
+  RowGain last_row_gain_;
   Brightness last_brightness_;      // of the last frame itself
   Brightness relative_brightness_;  // of the last frame against the reference
   double first_rmse_ = 0.0;         // of the first frame after the keyframe

@@ -60,8 +60,8 @@ std::vector<ProjectedPoint> KeyframeBackend::points_seen_from(const SE3& T_world
   return seen;
 }
 
-KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request,
-                                               std::span<const GradientImage> gradients) {
+KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, EvenFrame& image,
+                                               std::vector<GradientImage>& gradients) {
   const AnchorOptions& anchor = options_.keyframe.anchor;
   MapView& map = request.view != nullptr ? *request.view : map_;
   KeyframeContext context;
@@ -86,7 +86,12 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request,
     if (prefetched) T_world_keyframe = ahead->T_world_camera;
     const ViewImages view = prefetched ? ahead->images : render(map, T_world_keyframe);
     const StageTimer timer(stages_[stage_keyframe]);
-    made = maker_.make(*request.pyramid, gradients, view, T_world_keyframe, request.brightness, tracker_, context);
+    made = maker_.make(image, gradients, view, T_world_keyframe, request.brightness, tracker_, context);
+    if (made.evened) {
+      image = *made.evened;
+      gradients = build_gradients(*image.even);
+      made = maker_.make(image, gradients, view, T_world_keyframe, request.brightness, tracker_, context);
+    }
     if (prefetched && !made.anchored) {
       T_world_keyframe = request.T_world_camera;
       continue;
@@ -102,7 +107,7 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request,
     // A place that the map gives and does not confirm from there is no way back into it.
     const StageTimer timer(stages_[stage_keyframe]);
     const double map_share = made.map_share;
-    made = maker_.make(*request.pyramid, gradients, {}, request.T_world_camera, request.brightness, tracker_, context);
+    made = maker_.make(image, gradients, {}, request.T_world_camera, request.brightness, tracker_, context);
     made.map_share = map_share;
     corrected = 0.0;
   } else if (made.anchored && made.keyframe != nullptr) {
@@ -135,12 +140,13 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
     window_.prior.clear();
     outside_ = false;
   }
+  EvenFrame image = request.image;
   std::vector<GradientImage> gradients;
   {
     const StageTimer timer(stages_[stage_keyframe]);
-    gradients = build_gradients(*request.pyramid);
+    gradients = build_gradients(*image.even);
   }
-  auto [made, corrected, prefetched] = make(request, gradients);
+  auto [made, corrected, prefetched] = make(request, image, gradients);
   KeyframeOutcome outcome;
   outcome.map_share = made.map_share;
   outcome.map_correlation = made.anchor.correlation;

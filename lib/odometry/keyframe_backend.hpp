@@ -38,7 +38,7 @@ struct TrackedImage {
 
 /// A tracked frame that should become a keyframe.
 struct KeyframeRequest {
-  std::shared_ptr<const FramePyramid> pyramid;
+  EvenFrame image;
   std::shared_ptr<MapView> view;  // to look at in the map's place, as with a depth sensor; null: the map
   int id = 0;                     // the keyframe's number, if it is made
   int frame = 0;                  // counts images from 0
@@ -91,7 +91,8 @@ class KeyframeBackend {
     double corrected = 0.0;   // [px] farthest that the map has moved it from where it was tracked
     bool prefetched = false;  // made from the view that was rendered ahead
   };
-  Attempt make(const KeyframeRequest& request, std::span<const GradientImage> gradients);
+  /// Makes image and gradients even where the map shows that they are not.
+  Attempt make(const KeyframeRequest& request, EvenFrame& image, std::vector<GradientImage>& gradients);
   void make_room();
   /// Moves the keyframes that only their own motion has placed; far: what the map holds is elsewhere, and is dropped.
   void come_back(const SE3& T_correction, bool far);

@@ -66,9 +66,10 @@ ViewImages KeyframeMaker::without_border(const ViewImages& view, double share) c
   return inner;
 }
 
-MadeKeyframe KeyframeMaker::make(const FramePyramid& pyramid, std::span<const GradientImage> gradients,
+MadeKeyframe KeyframeMaker::make(const EvenFrame& image, std::span<const GradientImage> gradients,
                                  const ViewImages& whole_view, const SE3& T_world_camera, const Brightness& brightness,
                                  const Tracker& tracker, const KeyframeContext& context) {
+  const FramePyramid& pyramid = *image.even;
   MadeKeyframe made;
   if (!whole_view.depth.empty()) {
     made.map_share =
@@ -91,7 +92,7 @@ MadeKeyframe KeyframeMaker::make(const FramePyramid& pyramid, std::span<const Gr
   made.keyframe->T_world_camera = T_world_camera;
   made.keyframe->brightness = brightness;
   made.keyframe->gradient = gradients.front();
-  if (made.in_map && made.verifiable) add_anchor(made, pyramid, view, tracker, context.distrust_map);
+  if (made.in_map && made.verifiable) add_anchor(made, image, view, tracker, context.distrust_map);
   const bool map_believed = made.in_map && (!context.distrust_map || made.anchored || !made.verifiable);
   if (!map_believed) {
     made.in_map = false;
@@ -128,8 +129,9 @@ void KeyframeMaker::add_points(MadeKeyframe& made, const Camera& camera, std::sp
   keyframe.points.clear();
 }
 
-void KeyframeMaker::add_anchor(MadeKeyframe& made, const FramePyramid& pyramid, const ViewImages& view,
+void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const ViewImages& view,
                                const Tracker& tracker, bool far_off) {
+  const FramePyramid& pyramid = *image.even;
   const AnchorOptions& options = options_.anchor;
   Keyframe& keyframe = *made.keyframe;
   const FramePyramid rendered = build_frame_pyramid(pyramid.cameras.front(), to_gray(view.color), options_.smoothing);
@@ -146,11 +148,14 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const FramePyramid& pyramid, 
   } else {
     alignment = tracker.align(reference, pyramid, SE3(), {}, 2, 0);
   }
+  EvenFrame evened = image;
+  const bool changed = alignment.finished && even_rows(tracker, reference, evened, alignment);
   made.anchor = alignment;
   const bool good = alignment.finished && alignment.inlier_share >= options.min_inliers &&
                     alignment.coverage >= options.min_coverage && alignment.rmse <= options.max_rmse &&
                     std::abs(alignment.brightness.a) <= tracker.options().max_log_gain;
   if (!good) return;
+  if (changed) made.evened = evened;
   MapAnchor& anchor = keyframe.anchor;
   anchor.T_world_view = keyframe.T_world_camera;
   anchor.points = make_window_points(pyramid.cameras.front(), gradients, view, anchor.T_world_view,

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "odosplat/map/map_view.hpp"
+#include "odosplat/odometry/even_rows.hpp"
 #include "odosplat/odometry/immature_points.hpp"
 #include "odosplat/odometry/keyframe.hpp"
 #include "odosplat/odometry/tracker.hpp"
@@ -65,9 +67,11 @@ struct MadeKeyframe {
   double point_share = 0.0;            // of the window's points wanted that the map is asked for
   double map_share = 0.0;              // share of the image with map depth
   bool anchored = false;
-  Alignment anchor;        // of the keyframe's image against the rendered one
-  SE3 T_world_camera_map;  // where that alignment puts the camera, if anchored
-  double map_flow = 0.0;   // [px] root mean square image motion between that and the pose rendered from
+  std::optional<EvenFrame> evened;  // where the rendered view shows that the image's rows are not alike: the image as
+                                    // the keyframe should be made of
+  Alignment anchor;                 // of the keyframe's image against the rendered one
+  SE3 T_world_camera_map;           // where that alignment puts the camera, if anchored
+  double map_flow = 0.0;            // [px] root mean square image motion between that and the pose rendered from
 };
 
 /// Turns an image and the map's view from its pose into a keyframe: points with map depth for tracking and for the
@@ -76,17 +80,17 @@ class KeyframeMaker {
  public:
   explicit KeyframeMaker(const KeyframeMakerOptions& options);
 
-  /// gradients: the pyramid's, of every level. view must have been rendered with the pyramid's camera from
-  /// T_world_camera. The keyframe's pose and brightness are
-  /// as given; id, frame and time are left to the caller. tracker aligns image and rendered view.
-  MadeKeyframe make(const FramePyramid& pyramid, std::span<const GradientImage> gradients, const ViewImages& view,
+  /// gradients: the even image's, of every level. view must have been rendered with the image's camera from
+  /// T_world_camera. The keyframe's pose and brightness are as given; id, frame and time are left to the caller.
+  /// tracker aligns image and rendered view.
+  MadeKeyframe make(const EvenFrame& image, std::span<const GradientImage> gradients, const ViewImages& view,
                     const SE3& T_world_camera, const Brightness& brightness, const Tracker& tracker,
                     const KeyframeContext& context = {});
 
   const KeyframeMakerOptions& options() const { return options_; }
 
  private:
-  void add_anchor(MadeKeyframe& made, const FramePyramid& pyramid, const ViewImages& view, const Tracker& tracker,
+  void add_anchor(MadeKeyframe& made, const EvenFrame& image, const ViewImages& view, const Tracker& tracker,
                   bool far_off);
   ViewImages without_border(const ViewImages& view, double share) const;
   void add_points(MadeKeyframe& made, const Camera& camera, std::span<const GradientImage> gradients,

@@ -76,11 +76,12 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
   request.time = time;
   {
     const StageTimer timer(stages_[stage_pyramid]);
-    request.pyramid = std::make_shared<FramePyramid>(build_frame_pyramid(camera_, image, options_.keyframe.smoothing));
+    request.image =
+        make_even(std::make_shared<FramePyramid>(build_frame_pyramid(camera_, image, options_.keyframe.smoothing)));
   }
   TrackResult result;
   ++counts_.frames;
-  if (shows_nothing(*request.pyramid)) {
+  if (shows_nothing(*request.image.taken)) {
     // A covered lens is not worth a search.
   } else if (!front_.empty()) {
     follow(image, request, result);
@@ -117,7 +118,7 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
   TrackedFrame frame;
   {
     const StageTimer timer(stages_[stage_track]);
-    frame = front_.track(*request.pyramid, request.time);
+    frame = front_.track(request.image.taken, request.time);
   }
   result.inlier_share = frame.alignment.inlier_share;
   result.coverage = frame.alignment.coverage;
@@ -135,7 +136,8 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
   record_.add_frame(request.time, frame.keyframe, frame.T_keyframe_camera, frame.was_lost);
   request.T_world_camera = frame.T_world_camera;
   request.brightness = frame.brightness;
-  const TrackedImage tracked{request.pyramid, frame.T_world_camera, frame.brightness};
+  request.image = frame.image;
+  const TrackedImage tracked{frame.image.even, frame.T_world_camera, frame.brightness};
   if (thread_ != nullptr) {
     thread_->observe(tracked);
   } else {

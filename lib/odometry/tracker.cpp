@@ -159,6 +159,7 @@ void TrackerOptions::check() const {
   require(max_log_gain > 0.0, "tracker.max_log_gain", "positive");
   require(gain_sigma > 0.0 && offset_sigma > 0.0, "tracker.gain_sigma and offset_sigma", "positive");
   require(noise > 0.0, "tracker.noise", "positive");
+  row_gain.check();
 }
 
 double worth(const Alignment& a) { return a.finished ? a.inlier_share * a.coverage - a.rmse : -1.0; }

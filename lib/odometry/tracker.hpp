@@ -6,6 +6,7 @@
 
 #include "odosplat/core/se3.hpp"
 #include "odosplat/odometry/frame.hpp"
+#include "odosplat/odometry/row_gain.hpp"
 #include "odosplat/odometry/tracking_reference.hpp"
 
 namespace odosplat {
@@ -20,6 +21,7 @@ struct TrackerOptions {
   double gain_sigma = 0.5;     // weak prior on a, relative to its guess
   double offset_sigma = 0.5;   // [grey] weak prior on b
   double noise = 5.0 / 255;    // [grey] of one residual, for covariance and priors
+  RowGainOptions row_gain;
 
   void check() const;
 };

@@ -228,7 +228,8 @@ TEST(KeyframeThread, ANewerRequestReplacesOneThatWaits) {
     r.frame = k;
     r.time = k;
     r.T_world_camera = test::room_path(k);
-    r.pyramid = std::make_shared<FramePyramid>(build_frame_pyramid(camera, map.gray(camera, r.T_world_camera)));
+    r.image =
+        make_even(std::make_shared<FramePyramid>(build_frame_pyramid(camera, map.gray(camera, r.T_world_camera))));
     return r;
   };
   // While it renders ahead, requests wait.
@@ -263,8 +264,8 @@ TEST(KeyframeBackend, AViewRenderedAheadIsUsedFromNearbyOnly) {
     backend.prefetch(T_world_camera * (near ? beside : away));
     KeyframeRequest request;
     request.T_world_camera = T_world_camera;
-    request.pyramid =
-        std::make_shared<FramePyramid>(build_frame_pyramid(camera, map.gray(camera, T_world_camera), 0.8));
+    request.image =
+        make_even(std::make_shared<FramePyramid>(build_frame_pyramid(camera, map.gray(camera, T_world_camera), 0.8)));
     const KeyframeOutcome outcome = backend.add(request);
     ASSERT_TRUE(outcome.made);
     EXPECT_EQ(outcome.prefetched, near);

@@ -30,9 +30,9 @@ class WindowOptimizerTest : public testing::Test {
     Window window;
     for (int i = 0; i < n; ++i) {
       const SE3 T = test::room_path(6 * i);
-      const FramePyramid pyramid = build_frame_pyramid(camera_, room_.gray(camera_, T));
-      const auto made =
-          maker.make(pyramid, build_gradients(pyramid), room_.render(camera_, T, {true, true}), T, {}, tracker);
+      const auto pyramid = std::make_shared<FramePyramid>(build_frame_pyramid(camera_, room_.gray(camera_, T)));
+      const auto made = maker.make(make_even(pyramid), build_gradients(*pyramid),
+                                   room_.render(camera_, T, {true, true}), T, {}, tracker);
       EXPECT_NE(made.keyframe, nullptr);
       EXPECT_EQ(made.anchored, anchored);
       window.keyframes.push_back(made.keyframe);
