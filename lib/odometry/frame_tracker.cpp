@@ -19,6 +19,8 @@ void AcceptOptions::check() const {
   require(sure_correlation >= min_correlation, "accept.sure_correlation", "at least min_correlation");
   require(min_map_correlation >= -1.0 && min_map_correlation <= 1.0, "accept.min_map_correlation", "in [-1, 1]");
   require(min_map_share >= 0.0 && min_map_share <= 1.0, "accept.min_map_share", "in [0, 1]");
+  require(motion_translation > 0.0 && motion_rotation > 0.0, "accept.motion_translation and motion_rotation",
+          "positive");
   require(retrack >= 1.0, "accept.retrack", "at least 1");
   require(retrack_outliers >= 0.0, "accept.retrack_outliers", "at least 0");
   require(found_inliers >= 0.0 && found_inliers <= 1.0, "accept.found_inliers", "in [0, 1]");
@@ -112,7 +114,9 @@ Alignment FrameTracker::track_against_reference(const FramePyramid& pyramid, dou
   };
   const auto guesses = relative(motion_guesses(history_, time, T_world_host));
   const int top = pyramid.levels() - 1;
-  Alignment best = tracker_.align(points, pyramid, guesses.front(), relative_brightness_, top, 0);
+  const PosePrior motion =
+      pose_prior(guesses.front(), options_.accept.motion_translation, options_.accept.motion_rotation);
+  Alignment best = tracker_.align(points, pyramid, guesses.front(), relative_brightness_, top, 0, &motion);
   if (believed(best, false) && as_good_as_last(best)) return best;
 
   const auto offer = [&](const Alignment& other) {
@@ -120,7 +124,7 @@ Alignment FrameTracker::track_against_reference(const FramePyramid& pyramid, dou
   };
   // Repeated patterns lead coarse levels astray where the prediction itself was close: start lower.
   for (int level = std::min(2, top - 1); level >= 0; --level) {
-    offer(tracker_.align(points, pyramid, guesses.front(), relative_brightness_, level, 0));
+    offer(tracker_.align(points, pyramid, guesses.front(), relative_brightness_, level, 0, &motion));
   }
   if (believed(best, false) && as_good_as_last(best)) return best;
   auto more = guesses;

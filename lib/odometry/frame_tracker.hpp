@@ -28,10 +28,13 @@ struct AcceptOptions {
   // in the coarsest map. Where it falls below from one keyframe to the next, the camera is looked for elsewhere.
   double min_map_correlation = 0.3;
   double min_map_share = 0.6;
-  double retrack = 1.5;            // residual over the last frame's beyond which other guesses are tried
-  double retrack_outliers = 0.05;  // growth of the share of outliers beyond which they are tried, too
-  double found_inliers = 0.7;      // as min_inliers, for a camera that was lost
-  double found_coverage = 0.35;    // as min_coverage, for a camera that was lost
+  // Of the deviation from constant velocity between two frames: holds what the image does not tell.
+  double motion_translation = 0.005;  // [m] standard deviation
+  double motion_rotation = 0.005;     // [rad] standard deviation
+  double retrack = 1.5;               // residual over the last frame's beyond which other guesses are tried
+  double retrack_outliers = 0.05;     // growth of the share of outliers beyond which they are tried, too
+  double found_inliers = 0.7;         // as min_inliers, for a camera that was lost
+  double found_coverage = 0.35;       // as min_coverage, for a camera that was lost
 
   void check() const;
 };

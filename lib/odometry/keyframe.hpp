@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "odosplat/core/se3.hpp"
@@ -58,6 +59,8 @@ struct Keyframe {
   int frame = 0;      // counts images from 0
   double time = 0.0;  // [s]
   SE3 T_world_camera;
+  /// Where tracking and the map's anchor had it before the window was adjusted: a weak prior of its pose.
+  std::optional<SE3> T_world_tracked;
   Brightness brightness;
   Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera
   GradientImage gradient;                  // full size

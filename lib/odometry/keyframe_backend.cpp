@@ -123,7 +123,9 @@ void KeyframeBackend::come_back(const SE3& T_correction, bool far) {
   };
   if (far) std::erase_if(window_.keyframes, held_by_map);
   for (const auto& k : window_.keyframes) {
-    if (!held_by_map(k)) k->T_world_camera = T_correction * k->T_world_camera;
+    if (held_by_map(k)) continue;
+    k->T_world_camera = T_correction * k->T_world_camera;
+    if (k->T_world_tracked) k->T_world_tracked = T_correction * *k->T_world_tracked;
   }
   window_.prior.clear();
 }
@@ -159,6 +161,7 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   keyframe->id = request.id;
   keyframe->frame = request.frame;
   keyframe->time = request.time;
+  keyframe->T_world_tracked = keyframe->T_world_camera;
   const bool far = corrected > options_.keyframe.anchor.reset_flow;
   if (made.anchored && (outside_ || far)) come_back(keyframe->T_world_camera * request.T_world_camera.inverse(), far);
   if (!made.in_map) {

@@ -26,7 +26,14 @@ struct AnchorOptions {
   double max_rmse = 12.0 / 255;    // [grey]
   double render_again_flow = 2.0;  // [px] a keyframe that the map moves further is rendered from its new place
   double reset_flow = 4.0;         // [px] beyond, the rest of the window is believed to be wrong and is dropped
-  double far_off_angle = 0.04;     // [rad] of turned guesses, when the camera comes back into the map
+  // A rendered view with fewer points than this share of those wanted is bare: it tells some directions of motion by
+  // the errors of its colours alone, which reach over many pixels. Its alignment is held to the tracked pose.
+  double bare_share = 0.6;
+  double bare_translation = 0.001;  // [m] standard deviation of that tie
+  double bare_rotation = 0.0005;    // [rad] the same
+  double sure_correlation = 0.9;    // with the rendered view, below which the camera is looked for further off
+  double better_worth = 0.05;       // by which what is found there must be worth more (see worth())
+  double far_off_angle = 0.04;      // [rad] of turned guesses, when the camera comes back into the map
 
   void check() const;
 };

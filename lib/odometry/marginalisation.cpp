@@ -62,7 +62,7 @@ void marginalise_keyframe(Window& window, std::size_t index, const Camera& camer
   const WindowState whole = state;
   const Window part = points_to_marginalise(window, index, options, state);
   WindowSystem system = evaluate_window(part, state, camera, optimizer.photometric, static_cast<int>(index));
-  add_brightness_priors(state, index, make_window_priors(window, optimizer), system);
+  add_keyframe_priors(state, index, make_window_priors(window, optimizer), system);
 
   WindowSystem reduced;
   reduce_system(system, 0.0, reduced.H, reduced.g);

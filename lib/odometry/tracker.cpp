@@ -36,6 +36,18 @@ struct Estimate {
   Brightness brightness;
 };
 
+/// A pose known from elsewhere. The deviation's derivative by a step on the right is taken as the identity: a tie only
+/// has to hold what the image does not tell.
+struct Tie {
+  SE3 T_target_host;
+  Matrix6d information = Matrix6d::Zero();
+  Vector6d deviation(const SE3& T) const { return (T_target_host.inverse() * T).log(); }
+  double cost(const SE3& T) const {
+    const Vector6d xi = deviation(T);
+    return 0.5 * xi.dot(information * xi);
+  }
+};
+
 /// One pass over the points: residuals, weights and normal equations. Sums in blocks of 256 points in single
 /// precision, blocks in double.
 Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, const GrayImage& image,
@@ -162,12 +174,20 @@ void TrackerOptions::check() const {
   row_gain.check();
 }
 
+PosePrior pose_prior(const SE3& T_target_host, double sigma_translation, double sigma_rotation) {
+  PosePrior prior;
+  prior.T_target_host = T_target_host;
+  prior.information.diagonal().head<3>().setConstant(1.0 / (sigma_translation * sigma_translation));
+  prior.information.diagonal().tail<3>().setConstant(1.0 / (sigma_rotation * sigma_rotation));
+  return prior;
+}
+
 double worth(const Alignment& a) { return a.finished ? a.inlier_share * a.coverage - a.rmse : -1.0; }
 
 Tracker::Tracker(const TrackerOptions& options) : options_(options) { options_.check(); }
 
 Alignment Tracker::align(const TrackingReference& reference, const FramePyramid& target, const SE3& T_target_host_guess,
-                         const Brightness& brightness_guess, int coarsest, int finest) const {
+                         const Brightness& brightness_guess, int coarsest, int finest, const PosePrior* pose) const {
   Alignment result;
   result.T_target_host = T_target_host_guess;
   result.brightness = brightness_guess;
@@ -176,6 +196,8 @@ Alignment Tracker::align(const TrackingReference& reference, const FramePyramid&
   Vector8d prior = Vector8d::Zero();
   prior[6] = options_.noise * options_.noise / (options_.gain_sigma * options_.gain_sigma);
   prior[7] = options_.noise * options_.noise / (options_.offset_sigma * options_.offset_sigma);
+  Tie known;
+  if (pose != nullptr) known = {pose->T_target_host, options_.noise * options_.noise * pose->information};
   const auto huber = static_cast<float>(options_.huber);
   bool any = false;
   for (int l = top; l >= finest; --l) {
@@ -206,7 +228,8 @@ Alignment Tracker::align(const TrackingReference& reference, const FramePyramid&
     const auto energy = [&](const Sums& s, const Estimate& e) {
       const double da = e.brightness.a - brightness_guess.a;
       const double db = e.brightness.b - brightness_guess.b;
-      return s.cost / s.in_view + 0.5 * (prior[6] * da * da + prior[7] * db * db) / static_cast<double>(points.size());
+      const double priors = 0.5 * (prior[6] * da * da + prior[7] * db * db) + known.cost(e.T);
+      return s.cost / s.in_view + priors / static_cast<double>(points.size());
     };
     double current = energy(sums, estimate);
     double lambda = 1e-3;
@@ -214,6 +237,8 @@ Alignment Tracker::align(const TrackingReference& reference, const FramePyramid&
       Matrix8d H = sums.H;
       Vector8d g = sums.g;
       H.diagonal() += prior;
+      H.topLeftCorner<6, 6>() += known.information;
+      g.head<6>() += known.information * known.deviation(estimate.T);
       g[6] += prior[6] * (estimate.brightness.a - brightness_guess.a);
       g[7] += prior[7] * (estimate.brightness.b - brightness_guess.b);
       Vector8d step;
@@ -260,15 +285,16 @@ Alignment Tracker::align(const TrackingReference& reference, const FramePyramid&
     H.diagonal() += prior;
     const Eigen::Matrix2d B = H.bottomRightCorner<2, 2>();
     const Eigen::Matrix<double, 6, 2> C = H.topRightCorner<6, 2>();
-    result.information =
-        (H.topLeftCorner<6, 6>() - C * B.inverse() * C.transpose()) / (options_.noise * options_.noise);
+    const Matrix6d seen = H.topLeftCorner<6, 6>() - C * B.inverse() * C.transpose();
+    result.information = (seen + known.information) / (options_.noise * options_.noise);
   }
   result.finished = any;
   return result;
 }
 
 Alignment Tracker::align_best(const TrackingReference& reference, const FramePyramid& target,
-                              std::span<const SE3> guesses, const Brightness& brightness_guess) const {
+                              std::span<const SE3> guesses, const Brightness& brightness_guess,
+                              const PosePrior* prior) const {
   const int top = std::min(static_cast<int>(reference.levels.size()), target.levels()) - 1;
   struct Candidate {
     Alignment alignment;
@@ -276,7 +302,7 @@ Alignment Tracker::align_best(const TrackingReference& reference, const FramePyr
   };
   std::vector<Candidate> candidates;
   for (const SE3& guess : guesses) {
-    const Alignment a = align(reference, target, guess, brightness_guess, top, top);
+    const Alignment a = align(reference, target, guess, brightness_guess, top, top, prior);
     candidates.push_back({a, worth(a)});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -287,7 +313,8 @@ Alignment Tracker::align_best(const TrackingReference& reference, const FramePyr
   for (std::size_t k = 0; k < std::min<std::size_t>(3, candidates.size()); ++k) {
     if (candidates[k].score < 0.0) break;
     const Alignment& coarse = candidates[k].alignment;
-    const Alignment a = align(reference, target, coarse.T_target_host, coarse.brightness, std::max(0, top - 1), 0);
+    const Alignment a =
+        align(reference, target, coarse.T_target_host, coarse.brightness, std::max(0, top - 1), 0, prior);
     if (worth(a) > best_score) {
       best = a;
       best_score = worth(a);

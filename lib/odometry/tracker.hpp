@@ -41,6 +41,16 @@ struct Alignment {
   bool finished = false;  // false: too few points in view, or not finite
 };
 
+/// What is known of a pose before its image is looked at: where it probably is, and how surely.
+struct PosePrior {
+  SE3 T_target_host;
+  /// Of exp(xi) applied on the right of T_target_host, xi = (translation [m], rotation [rad]).
+  Matrix6d information = Matrix6d::Zero();
+};
+
+/// Prior of independent errors of translation [m] and rotation [rad], the same along all axes.
+PosePrior pose_prior(const SE3& T_target_host, double sigma_translation, double sigma_rotation);
+
 /// How much an alignment is worth against others of the same frame: inliers over all points of the level, which rewards
 /// agreement and staying in view, less their residual; -1 where it did not finish.
 double worth(const Alignment& alignment);
@@ -53,14 +63,15 @@ class Tracker {
  public:
   explicit Tracker(const TrackerOptions& options);
 
-  /// Levels from `coarsest` down to `finest` (clamped to those that both sides have) from the guess.
+  /// Levels from `coarsest` down to `finest` (clamped to those that both sides have) from the guess. prior: null, or
+  /// what holds the directions of motion that the image says nothing of, as before a bare wall.
   Alignment align(const TrackingReference& reference, const FramePyramid& target, const SE3& T_target_host_guess,
-                  const Brightness& brightness_guess, int coarsest, int finest) const;
+                  const Brightness& brightness_guess, int coarsest, int finest, const PosePrior* prior = nullptr) const;
 
   /// The best of several guesses: each is aligned on the coarsest level alone; the best three go on to level 0.
   /// guesses must not be empty.
   Alignment align_best(const TrackingReference& reference, const FramePyramid& target, std::span<const SE3> guesses,
-                       const Brightness& brightness_guess) const;
+                       const Brightness& brightness_guess, const PosePrior* prior = nullptr) const;
 
   const TrackerOptions& options() const { return options_; }
 

@@ -45,6 +45,7 @@ void translate(Window& window, const Eigen::Vector3d& by) {
   const auto moved = [&by](const SE3& T) { return SE3(T.rotation(), T.translation() + by); };
   for (const auto& keyframe : window.keyframes) {
     keyframe->T_world_camera = moved(keyframe->T_world_camera);
+    if (keyframe->T_world_tracked) keyframe->T_world_tracked = moved(*keyframe->T_world_tracked);
     keyframe->anchor.T_world_view = moved(keyframe->anchor.T_world_view);
     for (WindowPoint& point : keyframe->points) point.plane_world.D += point.plane_world.N.dot(by);
     for (WindowPoint& point : keyframe->anchor.points) point.plane_world.D += point.plane_world.N.dot(by);

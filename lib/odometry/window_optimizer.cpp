@@ -75,6 +75,7 @@ void WindowOptimizerOptions::check() const {
   require(max_iterations >= 1, "window_optimizer.max_iterations", "at least 1");
   require(converged >= 0.0, "window_optimizer.converged", "at least 0");
   require(gain_sigma > 0.0 && offset_sigma > 0.0, "window_optimizer.gain_sigma and offset_sigma", "positive");
+  require(tracked_translation > 0.0 && tracked_rotation > 0.0, "window_optimizer.tracked", "positive");
   require(gauge_translation > 0.0 && gauge_rotation > 0.0, "window_optimizer.gauge", "positive");
 }
 

@@ -145,6 +145,32 @@ TEST_F(TrackerTest, FindsMotionsOfManyDirections) {
   }
 }
 
+TEST_F(TrackerTest, APriorHoldsOnlyWhatTheImageDoesNotTell) {
+  const SE3 truth(so3_exp({0.01, -0.02, 0.005}), {0.02, -0.01, 0.015});
+  const FramePyramid target = seen_from(truth);
+  // Textured walls say a thousand times more than a prior of centimetres.
+  const PosePrior weak = pose_prior(SE3(), 0.02, 0.02);
+  expect_pose(tracker_.align(reference_, target, SE3(), {}, 5, 0, &weak), truth, 0.0015, 0.0008);
+  // Of walls that show next to nothing but noise, the prior's pose is kept.
+  Random random(4);
+  GrayImage bare;
+  room_.gray(camera_, T_world_host_ * truth.inverse()).convertTo(bare, CV_32F, 0.02, 0.4);
+  for (float& value : bare) value += static_cast<float>(0.004 * random.normal());
+  TrackingReference faint = reference_;
+  for (auto& level : faint.levels) {
+    for (ReferencePoint& point : level) {
+      point.intensity = 0.02F * point.intensity + 0.4F;
+      for (int i = 0; i < 6; ++i) point.jacobian[i] *= 0.02F;
+      point.jacobian[6] = -point.intensity;
+    }
+  }
+  const SE3 elsewhere(so3_exp({0.0, 0.02, 0.0}), {0.03, 0.0, 0.0});
+  const PosePrior strong = pose_prior(elsewhere, 1e-4, 1e-4);
+  const Alignment held = tracker_.align(faint, build_frame_pyramid(camera_, bare), elsewhere, {}, 5, 0, &strong);
+  expect_pose(held, elsewhere, 0.001, 0.001);
+  EXPECT_GE(held.information(0, 0), 1e8);
+}
+
 TEST_F(TrackerTest, PureRotationMovesNothing) {
   const SE3 truth(so3_exp({0.02, -0.06, 0.03}), Eigen::Vector3d::Zero());
   expect_pose(tracker_.align(reference_, seen_from(truth), SE3(), {}, 5, 0), truth, 0.001, 0.0005);

@@ -177,6 +177,35 @@ TEST_F(WindowOptimizerTest, CovarianceIsPositiveAndSmallerWithMoreKeyframes) {
   EXPECT_LT(six.keyframes[1]->covariance.trace(), two.keyframes[1]->covariance.trace());
 }
 
+TEST_F(WindowOptimizerTest, ImagesOverruleWhereKeyframesWereTrackedTo) {
+  Window window = make_window(4, true);
+  disturb(window, 1);
+  for (const auto& keyframe : window.keyframes) keyframe->T_world_tracked = keyframe->T_world_camera;
+  ASSERT_GT(largest_error(window), 0.003);
+  optimizer_.optimize(window, camera_);
+  EXPECT_LT(largest_error(window), 0.0015);
+}
+
+TEST_F(WindowOptimizerTest, WhereImagesSayNothingKeyframesStayWhereTheyWereTrackedTo) {
+  Window window = make_window(2, true);
+  for (const auto& keyframe : window.keyframes) {
+    keyframe->points.clear();
+    keyframe->anchor.points.clear();
+    keyframe->T_world_tracked = SE3::exp(Vector6d::Constant(0.01)) * keyframe->T_world_camera;
+  }
+  std::vector<SE3> tracked;
+  for (const auto& keyframe : window.keyframes) tracked.push_back(*keyframe->T_world_tracked);
+  optimizer_.optimize(window, camera_);
+  // The oldest is held by the gauge too, as strongly: it ends in the middle.
+  const Vector6d newest = (window.keyframes[1]->T_world_camera * tracked[1].inverse()).log();
+  EXPECT_LT(newest.norm(), 1e-4);
+  const Vector6d oldest = (window.keyframes[0]->T_world_camera * tracked[0].inverse()).log();
+  EXPECT_NEAR(oldest.norm(), 0.5 * Vector6d::Constant(0.01).norm(), 0.001);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_LT((window.keyframes[k]->T_world_tracked->inverse() * tracked[k]).log().norm(), 1e-9);
+  }
+}
+
 TEST_F(WindowOptimizerTest, OneKeyframeWithoutAnchorStays) {
   Window window = make_window(1, false);
   const SE3 before = window.keyframes[0]->T_world_camera;
