@@ -114,9 +114,13 @@ Alignment FrameTracker::track_against_reference(const FramePyramid& pyramid, dou
   };
   const auto guesses = relative(motion_guesses(history_, time, T_world_host));
   const int top = pyramid.levels() - 1;
+  // A step's uncertainty grows with its length in time; where nothing is known of the velocity, nothing is held.
+  const double steps = steps_ahead(history_, time);
+  const double scale = std::max(1.0, steps);
   const PosePrior motion =
-      pose_prior(guesses.front(), options_.accept.motion_translation, options_.accept.motion_rotation);
-  Alignment best = tracker_.align(points, pyramid, guesses.front(), relative_brightness_, top, 0, &motion);
+      pose_prior(guesses.front(), scale * options_.accept.motion_translation, scale * options_.accept.motion_rotation);
+  const PosePrior* held = steps > 0.0 ? &motion : nullptr;
+  Alignment best = tracker_.align(points, pyramid, guesses.front(), relative_brightness_, top, 0, held);
   if (believed(best, false) && as_good_as_last(best)) return best;
 
   const auto offer = [&](const Alignment& other) {
@@ -124,7 +128,7 @@ Alignment FrameTracker::track_against_reference(const FramePyramid& pyramid, dou
   };
   // Repeated patterns lead coarse levels astray where the prediction itself was close: start lower.
   for (int level = std::min(2, top - 1); level >= 0; --level) {
-    offer(tracker_.align(points, pyramid, guesses.front(), relative_brightness_, level, 0, &motion));
+    offer(tracker_.align(points, pyramid, guesses.front(), relative_brightness_, level, 0, held));
   }
   if (believed(best, false) && as_good_as_last(best)) return best;
   auto more = guesses;

@@ -21,8 +21,6 @@ void AnchorOptions::check() const {
   require(render_again_flow > 0.0, "anchor.render_again_flow", "positive");
   require(bare_share >= 0.0 && bare_share <= 1.0, "anchor.bare_share", "in [0, 1]");
   require(bare_translation > 0.0 && bare_rotation > 0.0, "anchor.bare_translation and bare_rotation", "positive");
-  require(sure_correlation >= -1.0 && sure_correlation <= 1.0, "anchor.sure_correlation", "in [-1, 1]");
-  require(better_worth >= 0.0, "anchor.better_worth", "at least 0");
   require(far_off_angle > 0.0, "anchor.far_off_angle", "positive");
   require(reset_flow >= render_again_flow, "anchor.reset_flow", "at least render_again_flow");
 }
@@ -144,25 +142,17 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const
   const TrackingReference reference =
       build_reference(rendered, gradients, view, map_reference_selector_, options_.reference, options_.plane);
   if (reference.empty()) return;
-  const auto search = [&] {
-    std::vector<SE3> guesses{SE3()};
-    for (const SE3& turned : rotated_guesses(SE3(), options.far_off_angle)) guesses.push_back(turned);
-    return tracker.align_best(reference, pyramid, guesses, {});
-  };
   // Where does the image lie in the rendered one? Levels 2 to 0 where the tracked pose is good to a few pixels.
   Alignment alignment;
   if (far_off) {
-    alignment = search();
+    std::vector<SE3> guesses{SE3()};
+    for (const SE3& turned : rotated_guesses(SE3(), options.far_off_angle)) guesses.push_back(turned);
+    alignment = tracker.align_best(reference, pyramid, guesses, {});
   } else {
     const int wanted = options_.reference.wanted(pyramid.cameras.front());
     const bool bare = static_cast<double>(reference.levels.front().size()) < options.bare_share * wanted;
     const PosePrior tracked = pose_prior(SE3(), options.bare_translation, options.bare_rotation);
     alignment = tracker.align(reference, pyramid, SE3(), {}, 2, 0, bare ? &tracked : nullptr);
-    // Behind a bare wall the camera may be further off than that.
-    if (alignment.correlation < options.sure_correlation) {
-      const Alignment other = search();
-      if (worth(other) > worth(alignment) + options.better_worth) alignment = other;
-    }
   }
   EvenFrame evened = image;
   const bool changed = alignment.finished && even_rows(tracker, reference, evened, alignment);

@@ -31,8 +31,6 @@ struct AnchorOptions {
   double bare_share = 0.6;
   double bare_translation = 0.001;  // [m] standard deviation of that tie
   double bare_rotation = 0.0005;    // [rad] the same
-  double sure_correlation = 0.9;    // with the rendered view, below which the camera is looked for further off
-  double better_worth = 0.05;       // by which what is found there must be worth more (see worth())
   double far_off_angle = 0.04;      // [rad] of turned guesses, when the camera comes back into the map
 
   void check() const;

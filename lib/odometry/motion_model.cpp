@@ -27,6 +27,8 @@ SE3 continued(const MotionHistory& history, double s) {
   return history.last * SE3::exp(s * step);
 }
 
+}  // namespace
+
 double steps_ahead(const MotionHistory& history, double time) {
   if (!history.has_velocity) return 0.0;
   const double dt = history.last_time - history.previous_time;
@@ -34,8 +36,6 @@ double steps_ahead(const MotionHistory& history, double time) {
   const double s = (time - history.last_time) / dt;
   return s > 0.0 && s < 5.0 ? s : 0.0;
 }
-
-}  // namespace
 
 SE3 predict(const MotionHistory& history, double time) { return continued(history, steps_ahead(history, time)); }
 

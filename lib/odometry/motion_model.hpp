@@ -28,6 +28,10 @@ struct MotionHistory {
 /// Constant velocity in the camera's own frame; the last pose when there is no velocity. history.has_last must hold.
 SE3 predict(const MotionHistory& history, double time);
 
+/// Steps of the last two poses' distance in time that lie between the last pose and `time`; 0 where predict() gives the
+/// last pose: without velocity, and over long gaps.
+double steps_ahead(const MotionHistory& history, double time);
+
 /// Guesses for the pose at `time`, best first: constant velocity, twice and half of it, standing still, and the pose of
 /// `keyframe`. Source: DSO's list of motion hypotheses.
 std::vector<SE3> motion_guesses(const MotionHistory& history, double time, const SE3& T_world_keyframe);

@@ -73,7 +73,7 @@ TEST(LivingRoom, ImagesOfTheWalkAreWellExposedAndNeitherBareNorRich) {
     const Rendering r = render(living_room(), camera, path[k].T_world_camera);
     const GrayImage gray = to_gray(r.color);
     const double mean = cv::mean(gray)[0];
-    EXPECT_GT(mean, 0.25) << "frame " << k;
+    EXPECT_GT(mean, 0.15) << "frame " << k;  // dim: bright, it has more texture than rooms of recorded data
     EXPECT_LT(mean, 0.75) << "frame " << k;
     const double depth_share = static_cast<double>(cv::countNonZero(r.depth)) / static_cast<double>(r.depth.total());
     EXPECT_GT(depth_share, 0.75) << "frame " << k;
@@ -90,7 +90,7 @@ TEST(LivingRoom, ImagesOfTheWalkAreWellExposedAndNeitherBareNorRich) {
     gradient_share += share;
     ++images;
   }
-  EXPECT_LT(gradient_share / images, 0.25);
+  EXPECT_LT(gradient_share / images, 0.16);
 }
 
 TEST(LivingRoom, ScansCoverWhatTheWalkSees) {
