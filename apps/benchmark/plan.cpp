@@ -21,7 +21,7 @@ using Words = std::vector<std::string>;
 constexpr int mapping_step = 10;  // every tenth frame makes the map, as in the paper
 constexpr int quick_frames = 200;
 constexpr int quick_iterations = 1500;
-// The paper's recipe has no limit of growth and takes hours in a room; at these limits its map is as good for depth.
+// The paper's recipe has no limit of growth and takes hours in a room: it is cut short here, as the report's maps show.
 constexpr int paper_iterations = 2000;
 constexpr int paper_budget = 200000;
 

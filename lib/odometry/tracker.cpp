@@ -293,8 +293,7 @@ Alignment Tracker::align(const TrackingReference& reference, const FramePyramid&
 }
 
 Alignment Tracker::align_best(const TrackingReference& reference, const FramePyramid& target,
-                              std::span<const SE3> guesses, const Brightness& brightness_guess,
-                              const PosePrior* prior) const {
+                              std::span<const SE3> guesses, const Brightness& brightness_guess) const {
   const int top = std::min(static_cast<int>(reference.levels.size()), target.levels()) - 1;
   struct Candidate {
     Alignment alignment;
@@ -302,7 +301,7 @@ Alignment Tracker::align_best(const TrackingReference& reference, const FramePyr
   };
   std::vector<Candidate> candidates;
   for (const SE3& guess : guesses) {
-    const Alignment a = align(reference, target, guess, brightness_guess, top, top, prior);
+    const Alignment a = align(reference, target, guess, brightness_guess, top, top);
     candidates.push_back({a, worth(a)});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -313,8 +312,7 @@ Alignment Tracker::align_best(const TrackingReference& reference, const FramePyr
   for (std::size_t k = 0; k < std::min<std::size_t>(3, candidates.size()); ++k) {
     if (candidates[k].score < 0.0) break;
     const Alignment& coarse = candidates[k].alignment;
-    const Alignment a =
-        align(reference, target, coarse.T_target_host, coarse.brightness, std::max(0, top - 1), 0, prior);
+    const Alignment a = align(reference, target, coarse.T_target_host, coarse.brightness, std::max(0, top - 1), 0);
     if (worth(a) > best_score) {
       best = a;
       best_score = worth(a);

@@ -71,7 +71,7 @@ class Tracker {
   /// The best of several guesses: each is aligned on the coarsest level alone; the best three go on to level 0.
   /// guesses must not be empty.
   Alignment align_best(const TrackingReference& reference, const FramePyramid& target, std::span<const SE3> guesses,
-                       const Brightness& brightness_guess, const PosePrior* prior = nullptr) const;
+                       const Brightness& brightness_guess) const;
 
   const TrackerOptions& options() const { return options_; }
 

@@ -19,8 +19,8 @@ struct WindowOptimizerOptions {
   double gauge_translation = 0.002;  // [m] prior of the oldest keyframe's pose around its last estimate; not where a
                                      // marginal prior stands
   double gauge_rotation = 0.001;     // [rad] the same
-  // Prior of a keyframe's pose around the one that it was tracked to: where images say anything, they say a thousand
-  // times more, but before a bare wall the noise alone would carry the window away (decimetres a keyframe).
+  // Prior of a keyframe's pose around the one that it was tracked to: images that say anything say far more, but before
+  // a bare wall noise alone carried the window away (a stand-in's wall: decimetres a keyframe).
   double tracked_translation = 0.002;  // [m]
   double tracked_rotation = 0.001;     // [rad]
 
