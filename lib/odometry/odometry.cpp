@@ -242,11 +242,7 @@ void Odometry::take_over(const KeyframeRequest& request, const KeyframeOutcome& 
   ++counts_.keyframes;
   if (outcome.anchored) ++counts_.anchored;
   if (outcome.prefetched) ++counts_.prefetched;
-  if (thread_ == nullptr) {
-    front_.set_references(outcome.window);
-  } else {
-    front_.set_references(outcome.window, keyframe.T_world_camera * request.T_world_camera.inverse());
-  }
+  front_.set_references(outcome.window, keyframe.T_world_camera * request.T_world_camera.inverse());
 }
 
 void Odometry::render_ahead(const TrackedFrame& frame, double time) {
