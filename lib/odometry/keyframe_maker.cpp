@@ -19,7 +19,6 @@ void AnchorOptions::check() const {
   require(min_coverage >= 0.0 && min_coverage <= 1.0, "anchor.min_coverage", "in [0, 1]");
   require(max_rmse > 0.0, "anchor.max_rmse", "positive");
   require(render_again_flow > 0.0, "anchor.render_again_flow", "positive");
-  require(bare_share >= 0.0 && bare_share <= 1.0, "anchor.bare_share", "in [0, 1]");
   require(bare_translation > 0.0 && bare_rotation > 0.0, "anchor.bare_translation and bare_rotation", "positive");
   require(far_off_angle > 0.0, "anchor.far_off_angle", "positive");
   require(reset_flow >= render_again_flow, "anchor.reset_flow", "at least render_again_flow");
@@ -27,6 +26,7 @@ void AnchorOptions::check() const {
 
 void KeyframeMakerOptions::check() const {
   selector.check();
+  weak_selector.check();
   reference.check();
   plane.check();
   window_points.check();
@@ -41,10 +41,10 @@ void KeyframeMakerOptions::check() const {
 
 KeyframeMaker::KeyframeMaker(const KeyframeMakerOptions& options)
     : options_(options),
-      reference_selector_(options.selector),
-      window_selector_(options.selector),
-      map_reference_selector_(options.selector),
-      anchor_selector_(options.selector),
+      reference_selectors_{PixelSelector(options.selector), PixelSelector(options.weak_selector)},
+      window_selectors_(reference_selectors_),
+      map_reference_selectors_(reference_selectors_),
+      anchor_selectors_(reference_selectors_),
       immature_selector_(options.selector) {
   options_.check();
 }
@@ -84,7 +84,8 @@ MadeKeyframe KeyframeMaker::make(const EvenFrame& image, std::span<const Gradien
     const double shown = static_cast<double>(cv::countNonZero(view.depth)) / static_cast<double>(view.depth.total());
     made.point_share = std::min(1.0, shown / options_.full_share);
   }
-  made.reference = build_reference(pyramid, gradients, view, reference_selector_, options_.reference, options_.plane);
+  made.reference = build_reference(pyramid, gradients, view, reference_selectors_.usual, options_.reference,
+                                   options_.plane, &reference_selectors_.weak);
   const auto enough = [&](int others) {
     return static_cast<int>(made.reference.levels.front().size()) + others >= options_.min_points;
   };
@@ -117,8 +118,9 @@ void KeyframeMaker::add_points(MadeKeyframe& made, const Camera& camera, std::sp
   const int wanted = static_cast<int>(made.point_share * options.points);
   keyframe.immature =
       make_immature_points(gradients, view.depth, options.gradient_weight, immature_selector_, options_.immature);
-  keyframe.points = make_window_points(camera, gradients, view, keyframe.T_world_camera, wanted, window_selector_,
-                                       options, options_.plane, options.depth_use);
+  keyframe.points =
+      make_window_points(camera, gradients, view, keyframe.T_world_camera, wanted,
+                         window_selectors_.of(made.reference.bare), options, options_.plane, options.depth_use);
   if (!search) return;
   for (const WindowPoint& point : keyframe.points) {
     const cv::Point pixel(static_cast<int>(point.u), static_cast<int>(point.v));
@@ -140,7 +142,8 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const
   const FramePyramid rendered = build_frame_pyramid(pyramid.cameras.front(), to_gray(view.color), options_.smoothing);
   const auto gradients = build_gradients(rendered);
   const TrackingReference reference =
-      build_reference(rendered, gradients, view, map_reference_selector_, options_.reference, options_.plane);
+      build_reference(rendered, gradients, view, map_reference_selectors_.usual, options_.reference, options_.plane,
+                      &map_reference_selectors_.weak);
   if (reference.empty()) return;
   // Where does the image lie in the rendered one? Levels 2 to 0 where the tracked pose is good to a few pixels.
   Alignment alignment;
@@ -149,10 +152,8 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const
     for (const SE3& turned : rotated_guesses(SE3(), options.far_off_angle)) guesses.push_back(turned);
     alignment = tracker.align_best(reference, pyramid, guesses, {});
   } else {
-    const int wanted = options_.reference.wanted(pyramid.cameras.front());
-    const bool bare = static_cast<double>(reference.levels.front().size()) < options.bare_share * wanted;
     const PosePrior tracked = pose_prior(SE3(), options.bare_translation, options.bare_rotation);
-    alignment = tracker.align(reference, pyramid, SE3(), {}, 2, 0, bare ? &tracked : nullptr);
+    alignment = tracker.align(reference, pyramid, SE3(), {}, 2, 0, reference.bare ? &tracked : nullptr);
   }
   EvenFrame evened = image;
   const bool changed = alignment.finished && even_rows(tracker, reference, evened, alignment);
@@ -164,9 +165,10 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const
   if (changed) made.evened = evened;
   MapAnchor& anchor = keyframe.anchor;
   anchor.T_world_view = keyframe.T_world_camera;
-  anchor.points = make_window_points(pyramid.cameras.front(), gradients, view, anchor.T_world_view,
-                                     static_cast<int>(made.point_share * options_.window_points.anchor_points),
-                                     anchor_selector_, options_.window_points, options_.plane, DepthUse::fixed);
+  anchor.points =
+      make_window_points(pyramid.cameras.front(), gradients, view, anchor.T_world_view,
+                         static_cast<int>(made.point_share * options_.window_points.anchor_points),
+                         anchor_selectors_.of(reference.bare), options_.window_points, options_.plane, DepthUse::fixed);
   // Relative brightness of the image against the rendered one is (a_k - a_m, b_k - e^(a_k - a_m) b_m): solved for the
   // map's a_m and b_m.
   anchor.brightness.a = keyframe.brightness.a - alignment.brightness.a;

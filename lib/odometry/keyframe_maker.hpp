@@ -26,11 +26,10 @@ struct AnchorOptions {
   double max_rmse = 12.0 / 255;    // [grey]
   double render_again_flow = 2.0;  // [px] a keyframe that the map moves further is rendered from its new place
   double reset_flow = 4.0;         // [px] beyond, the rest of the window is believed to be wrong and is dropped
-  // A rendered view with fewer points than this share of those wanted is bare: it tells some directions of motion by
-  // the errors of its colours alone, which reach over many pixels. Its alignment is held to the tracked pose.
-  double bare_share = 0.6;
-  double bare_translation = 0.001;  // [m] standard deviation of that tie
-  double bare_rotation = 0.0005;    // [rad] the same
+  // A bare rendered view (ReferenceOptions) tells some directions of motion by weak shading, in which the map's colours
+  // err over many pixels together. Its alignment is held to the tracked pose.
+  double bare_translation = 0.007;  // [m] standard deviation of that tie
+  double bare_rotation = 0.0035;    // [rad] the same
   double far_off_angle = 0.04;      // [rad] of turned guesses, when the camera comes back into the map
 
   void check() const;
@@ -38,6 +37,7 @@ struct AnchorOptions {
 
 struct KeyframeMakerOptions {
   SelectorOptions selector;
+  SelectorOptions weak_selector = weak_selector_options();  // for bare images
   ReferenceOptions reference;
   MapPlaneOptions plane;
   WindowPointOptions window_points;
@@ -101,11 +101,18 @@ class KeyframeMaker {
   void add_points(MadeKeyframe& made, const Camera& camera, std::span<const GradientImage> gradients,
                   const ViewImages& view, bool first);
 
+  /// The selectors of one purpose: each keeps its cell size from image to image.
+  struct Selectors {
+    PixelSelector usual;
+    PixelSelector weak;
+    PixelSelector& of(bool bare) { return bare ? weak : usual; }
+  };
+
   KeyframeMakerOptions options_;
-  PixelSelector reference_selector_;
-  PixelSelector window_selector_;
-  PixelSelector map_reference_selector_;
-  PixelSelector anchor_selector_;
+  Selectors reference_selectors_;
+  Selectors window_selectors_;
+  Selectors map_reference_selectors_;
+  Selectors anchor_selectors_;
   PixelSelector immature_selector_;
 };
 

@@ -23,6 +23,15 @@ struct SelectorOptions {
   void check() const;
 };
 
+/// For bare images: the gradients of plaster and of shading, as far as they stand out of the noise.
+inline SelectorOptions weak_selector_options() {
+  SelectorOptions options;
+  options.quantile = 0.1;
+  options.offset = 0.5 / 255;
+  options.level_factor = 0.6;
+  return options;
+}
+
 /// Picks pixels of high gradient, spread over the image: thresholds adapt to the region, and the cell size adapts so
 /// that about as many pixels are found as wanted.
 /// Source: Engel, Koltun, Cremers 2018 (DSO), section 3.2: region threshold = median gradient + offset, smoothed over

@@ -170,7 +170,7 @@ void TrackerOptions::check() const {
   require(min_coverage >= 0.0 && min_coverage < 1.0, "tracker.min_coverage", "in [0, 1)");
   require(max_log_gain > 0.0, "tracker.max_log_gain", "positive");
   require(gain_sigma > 0.0 && offset_sigma > 0.0, "tracker.gain_sigma and offset_sigma", "positive");
-  require(noise > 0.0, "tracker.noise", "positive");
+  require(noise > 0.0 && bare_noise > 0.0, "tracker.noise and bare_noise", "positive");
   row_gain.check();
 }
 
@@ -197,7 +197,8 @@ Alignment Tracker::align(const TrackingReference& reference, const FramePyramid&
   prior[6] = options_.noise * options_.noise / (options_.gain_sigma * options_.gain_sigma);
   prior[7] = options_.noise * options_.noise / (options_.offset_sigma * options_.offset_sigma);
   Tie known;
-  if (pose != nullptr) known = {pose->T_target_host, options_.noise * options_.noise * pose->information};
+  const double noise = reference.bare ? options_.bare_noise : options_.noise;
+  if (pose != nullptr) known = {pose->T_target_host, noise * noise * pose->information};
   const auto huber = static_cast<float>(options_.huber);
   bool any = false;
   for (int l = top; l >= finest; --l) {
@@ -286,7 +287,7 @@ Alignment Tracker::align(const TrackingReference& reference, const FramePyramid&
     const Eigen::Matrix2d B = H.bottomRightCorner<2, 2>();
     const Eigen::Matrix<double, 6, 2> C = H.topRightCorner<6, 2>();
     const Matrix6d seen = H.topLeftCorner<6, 6>() - C * B.inverse() * C.transpose();
-    result.information = (seen + known.information) / (options_.noise * options_.noise);
+    result.information = (seen + known.information) / (noise * noise);
   }
   result.finished = any;
   return result;

@@ -12,15 +12,16 @@
 namespace odosplat {
 
 struct TrackerOptions {
-  double huber = 9.0 / 255;    // [grey] residuals beyond weigh less
-  double cutoff = 20.0 / 255;  // [grey] residuals beyond count as outliers
-  int max_iterations = 30;     // a level
-  double converged = 0.02;     // [px] predicted image motion of a step below which a level is done
-  double min_coverage = 0.2;   // share of points that must stay in view
-  double max_log_gain = 1.2;   // |a| of the relative brightness, natural log
-  double gain_sigma = 0.5;     // weak prior on a, relative to its guess
-  double offset_sigma = 0.5;   // [grey] weak prior on b
-  double noise = 5.0 / 255;    // [grey] of one residual, for covariance and priors
+  double huber = 9.0 / 255;       // [grey] residuals beyond weigh less
+  double cutoff = 20.0 / 255;     // [grey] residuals beyond count as outliers
+  int max_iterations = 30;        // a level
+  double converged = 0.02;        // [px] predicted image motion of a step below which a level is done
+  double min_coverage = 0.2;      // share of points that must stay in view
+  double max_log_gain = 1.2;      // |a| of the relative brightness, natural log
+  double gain_sigma = 0.5;        // weak prior on a, relative to its guess
+  double offset_sigma = 0.5;      // [grey] weak prior on b
+  double noise = 5.0 / 255;       // [grey] of one residual, for covariance and priors
+  double bare_noise = 2.0 / 255;  // [grey] the same of a bare reference, where little but noise is left of it
   RowGainOptions row_gain;
 
   void check() const;

@@ -57,6 +57,25 @@ cv::Mat1f splat(const cv::Size& size, int level, std::span<const ProjectedPoint>
   return q;
 }
 
+/// Share of the regions with depth, each a tenth of the image wide, in which some pixels were picked.
+double share_of_regions(const cv::Mat1b& with_depth, const std::vector<cv::Point>& pixels) {
+  constexpr int least = 3;
+  const int side = std::max(1, with_depth.cols / 10);
+  cv::Mat1i picked((with_depth.rows + side - 1) / side, (with_depth.cols + side - 1) / side, 0);
+  for (const cv::Point& p : pixels) ++picked(p.y / side, p.x / side);
+  int known = 0;
+  int found = 0;
+  for (int y = 0; y < picked.rows; ++y) {
+    for (int x = 0; x < picked.cols; ++x) {
+      const cv::Rect region(x * side, y * side, side, side);
+      if (cv::countNonZero(with_depth(region & cv::Rect({0, 0}, with_depth.size()))) == 0) continue;
+      ++known;
+      if (picked(y, x) >= least) ++found;
+    }
+  }
+  return known > 0 ? static_cast<double>(found) / known : 1.0;
+}
+
 }  // namespace
 
 void ReferenceOptions::check() const {
@@ -66,6 +85,8 @@ void ReferenceOptions::check() const {
   require(gradient_weight > 0.0, "reference.gradient_weight", "positive");
   require(min_gradient >= 0.0, "reference.min_gradient", "at least 0");
   require(projected_sigma > 0.0, "reference.projected_sigma", "positive");
+  require(bare_share >= 0.0 && bare_share <= 1.0, "reference.bare_share", "in [0, 1]");
+  require(bare_factor >= 1.0, "reference.bare_factor", "at least 1");
 }
 
 int ReferenceOptions::wanted(const Camera& camera) const {
@@ -85,7 +106,7 @@ Eigen::Matrix<double, 2, 6> projection_jacobian(const Camera& camera, const Eige
 
 TrackingReference build_reference(const FramePyramid& pyramid, std::span<const GradientImage> gradients,
                                   const ViewImages& view, PixelSelector& selector, const ReferenceOptions& options,
-                                  const MapPlaneOptions& plane_options) {
+                                  const MapPlaneOptions& plane_options, PixelSelector* weak) {
   TrackingReference reference;
   reference.cameras = pyramid.cameras;
   reference.levels.resize(pyramid.gray.size());
@@ -104,7 +125,13 @@ TrackingReference build_reference(const FramePyramid& pyramid, std::span<const G
       const float* z = view.depth[full(y)];
       for (int x = 0; x < mask.cols; ++x) mask(y, x) = z[full(x)] > 0.0F ? 1 : 0;
     }
-    const auto pixels = selector.select(gradients.subspan(level), mask, static_cast<int>(wanted));
+    const auto pick = [&](PixelSelector& from, double number) {
+      return from.select(gradients.subspan(level), mask, static_cast<int>(number));
+    };
+    std::vector<cv::Point> pixels;
+    if (!reference.bare) pixels = pick(selector, wanted);
+    if (l == 0 && weak != nullptr) reference.bare = share_of_regions(mask, pixels) < options.bare_share;
+    if (reference.bare) pixels = pick(*weak, options.bare_factor * wanted);
     wanted = std::max<double>(options.min_points, wanted * options.level_share);
     auto& points = reference.levels[level];
     points.reserve(pixels.size());

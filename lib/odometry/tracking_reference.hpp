@@ -29,6 +29,7 @@ struct alignas(64) ReferencePoint {
 struct TrackingReference {
   std::vector<Camera> cameras;                      // a level each
   std::vector<std::vector<ReferencePoint>> levels;  // level 0 is full size
+  bool bare = false;                                // most of the image has weak gradients only, and they were taken
   /// A lone word for "cannot be used": no level has points.
   bool empty() const { return levels.empty() || levels.front().empty(); }
 };
@@ -40,6 +41,8 @@ struct ReferenceOptions {
   double gradient_weight = 50.0 / 255;  // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2)
   double min_gradient = 5.0 / 255;      // [grey/px] of a pixel whose depth comes from another keyframe's point
   double projected_sigma = 0.05;        // relative standard deviation that is assumed of its inverse depth
+  double bare_share = 0.5;              // of the image's regions with picked pixels, below which it is bare
+  double bare_factor = 5.0;             // so many times the points are wanted of a bare image, as each says little
 
   void check() const;
   /// Points wanted on level 0 of this camera.
@@ -57,10 +60,11 @@ Eigen::Matrix<double, 2, 6> projection_jacobian(const Camera& camera, const Eige
 
 /// Makes a reference of the host's image (its pyramid and gradients) and the depth seen from the host's pose, both of
 /// level 0's size. Source: template Jacobians as in Baker and Matthews 2004. Pixels without trusted depth are left out;
-/// an image without texture or depth gives an empty reference, not an error.
+/// an image without texture or depth gives an empty reference, not an error. weak: what picks the pixels of a bare
+/// image instead of selector; null: no image counts as bare.
 TrackingReference build_reference(const FramePyramid& pyramid, std::span<const GradientImage> gradients,
                                   const ViewImages& view, PixelSelector& selector, const ReferenceOptions& options,
-                                  const MapPlaneOptions& plane_options);
+                                  const MapPlaneOptions& plane_options, PixelSelector* weak = nullptr);
 
 /// Adds pixels whose depth is known from points of other keyframes: on every level those that a point falls on, and
 /// their neighbours, as far as they have some gradient and are not in the reference already. Where several points fall
