@@ -71,7 +71,8 @@ TrackedFrame FrameTracker::track(std::shared_ptr<const FramePyramid> pyramid, do
   return frame;
 }
 
-void FrameTracker::set_references(std::vector<ReferenceFrame> references) {
+void FrameTracker::set_references(std::vector<ReferenceFrame> references, const SE3& T_new_old) {
+  history_.move(T_new_old);
   const int newest_before = references_.empty() ? -1 : references_.back().id;
   const int current_before = references_.empty() ? -1 : reference().id;
   references_ = std::move(references);
@@ -86,11 +87,6 @@ void FrameTracker::set_references(std::vector<ReferenceFrame> references) {
   for (std::size_t k = 0; k < references_.size(); ++k) {
     if (references_[k].id == current_before) current_ = k;
   }
-}
-
-void FrameTracker::set_references(std::vector<ReferenceFrame> references, const SE3& T_new_old) {
-  set_references(std::move(references));
-  history_.move(T_new_old);
 }
 
 void FrameTracker::confirm(double time, const SE3& T_world_camera) {

@@ -80,11 +80,9 @@ class FrameTracker {
   TrackedFrame track(std::shared_ptr<const FramePyramid> pyramid, double time);
 
   /// Takes over what the back end says of its keyframes (oldest first, not empty). Frames are compared with the newest
-  /// from now on if that is new; else with the same one as before, where it is.
-  void set_references(std::vector<ReferenceFrame> references);
-
-  /// The same where frames have passed since the newest keyframe's own: their poses, tracked against another, are moved
-  /// by T_new_old on the left.
+  /// from now on if that is new; else with the same one as before, where it is. T_new_old: how the back end has moved
+  /// the newest keyframe from where it was tracked, on the left. The frames of the history move along, so that the
+  /// correction is not taken for motion.
   void set_references(std::vector<ReferenceFrame> references, const SE3& T_new_old);
 
   /// The last frame is at T_world_camera.
