@@ -22,9 +22,10 @@ std::string format_duration(double seconds) {
   return text;
 }
 
-Progress::Progress(std::string what, long total)
+Progress::Progress(std::string what, long total, long before)
     : what_(std::move(what)),
       total_(total),
+      before_(before),
       terminal_(isatty(STDERR_FILENO) == 1),
       start_(Clock::now()),
       last_print_(start_) {}
@@ -46,7 +47,10 @@ void Progress::update(long done, const std::string& detail) {
 void Progress::print(long done, const std::string& detail) {
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
   const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 1.0;
-  const std::string left = done > 0 ? format_duration(elapsed * (1.0 - share) / share) : "-:--";
+  const std::string left =
+      done > before_
+          ? format_duration(elapsed * static_cast<double>(total_ - done) / static_cast<double>(done - before_))
+          : "-:--";
   if (terminal_) {
     constexpr int width = 24;
     const int filled = std::clamp(static_cast<int>(share * width), 0, width);

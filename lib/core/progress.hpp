@@ -11,8 +11,9 @@ namespace odosplat {
 /// line every 10 % or 30 s elsewhere. Shows done/total, time left and a text of the caller's. Not thread safe.
 class Progress {
  public:
-  /// what: a word or two ("train"). total >= 0 steps.
-  Progress(std::string what, long total);
+  /// what: a word or two ("train"). total >= 0 steps, of which the first `before` were done by an earlier run: the time
+  /// left follows from the others' speed.
+  Progress(std::string what, long total, long before = 0);
   /// Ends the line; also done by the destructor.
   ~Progress();
   Progress(const Progress&) = delete;
@@ -28,6 +29,7 @@ class Progress {
 
   std::string what_;
   long total_;
+  long before_;
   bool terminal_;
   bool finished_ = false;
   bool line_open_ = false;
