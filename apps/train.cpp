@@ -53,8 +53,8 @@ class SequenceViews : public TrainingViews {
   std::vector<Place> frames_;
 };
 
-TrainerOptions trainer_options(const TrainJob& job) {
-  TrainerOptions options = TrainerOptions::preset(job.preset);
+TrainerOptions trainer_options(const TrainJob& job, int views) {
+  TrainerOptions options = TrainerOptions::preset(job.preset, views);
   if (job.iterations >= 0) options.iterations = job.iterations;
   options.seed = job.seed;
   if (!job.densify.empty()) options.densify.method = densify_method(job.densify);
@@ -121,7 +121,7 @@ void take_up(const TrainJob& job, Trainer& trainer) {
 
 /// Steps until all are done or Ctrl-C, with checkpoints.
 void run(const TrainJob& job, Trainer& trainer) {
-  Progress progress("train", trainer.options().iterations);
+  Progress progress("train", trainer.options().iterations, trainer.iteration());
   while (!trainer.done() && !interrupted()) {
     const TrainingStep step = trainer.step();
     progress.update(step.iteration, progress_text(step, trainer.report()));
@@ -157,11 +157,11 @@ void write_result(const TrainJob& job, const compute::Context& device, const Tra
 }  // namespace
 
 TrainingReport train_map(const Common& common, const TrainJob& job) {
-  const TrainerOptions options = trainer_options(job);
   const InitializeOptions initial = initialize_options(job);
   ensure_output_file(job.out);
   if (!job.report.empty()) ensure_output_file(job.report);
   SequenceViews views(job);
+  const TrainerOptions options = trainer_options(job, views.count());
   PointCloud cloud = read_cloud(job.cloud, job.voxel, job.remove_outliers);
   if (!cloud.has_colors()) color_from_views(cloud, views);
   const compute::Context device = open_device(common);
@@ -200,7 +200,8 @@ void add_train(CLI::App& app, Common& common) {
   command->add_option("--every", job->every, "train on every Nth frame")->check(CLI::PositiveNumber);
   command->add_option("--frames", job->frames, frames_help);
   command->add_option("--preset", job->preset, "default, or paper (the recipe of the paper's code)");
-  command->add_option("--iterations", job->iterations, "steps of one image each (default: the preset's)");
+  command->add_option("--iterations", job->iterations,
+                      "steps of one image each (default: 4000, and at least 8 an image; paper: 20000)");
   command->add_option(
       "--budget", job->budget,
       "most Gaussians: of the cloud's points, and that densification grows to; 0 = one a point, and the preset's "

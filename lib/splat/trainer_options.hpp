@@ -54,10 +54,11 @@ struct TrainerOptions {
   AdamOptions adam;
   RasterizerOptions rasterizer;
 
+  /// views: the images that there are; many get more iterations, 0: as if they were few.
   /// "default": depth is kept while colours are learnt. "paper": the public recipe of the paper's code (rates of
   /// GS-DSO's fork of OpenSplat, 20 000 steps, levels /4, /2, 1, no decay but of positions, no depth, clone and split,
   /// opacity resets). Throws InputError else.
-  static TrainerOptions preset(const std::string& name);
+  static TrainerOptions preset(const std::string& name, int views = 0);
   /// Throws InputError naming the field.
   void check() const;
   /// One line "name value" a setting, for the header of the map.

@@ -279,5 +279,11 @@ TEST(Trainer, RefusesBadInput) {
   EXPECT_THROW(options.check(), InputError);
 }
 
+TEST(TrainerOptionsTest, ManyViewsGetMoreIterations) {
+  EXPECT_EQ(TrainerOptions::preset("default").iterations, TrainerOptions::preset("default", 100).iterations);
+  EXPECT_EQ(TrainerOptions::preset("default", 1000).iterations, 8000);
+  EXPECT_EQ(TrainerOptions::preset("paper", 100000).iterations, TrainerOptions::preset("paper").iterations);
+}
+
 }  // namespace
 }  // namespace odosplat
