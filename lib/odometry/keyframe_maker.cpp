@@ -19,6 +19,7 @@ void AnchorOptions::check() const {
   require(min_coverage >= 0.0 && min_coverage <= 1.0, "anchor.min_coverage", "in [0, 1]");
   require(max_rmse > 0.0, "anchor.max_rmse", "positive");
   require(render_again_flow > 0.0, "anchor.render_again_flow", "positive");
+  require(gradient_weight > 0.0, "anchor.gradient_weight", "positive");
   require(bare_translation > 0.0 && bare_rotation > 0.0, "anchor.bare_translation and bare_rotation", "positive");
   require(far_off_angle > 0.0, "anchor.far_off_angle", "positive");
   require(reset_flow >= render_again_flow, "anchor.reset_flow", "at least render_again_flow");
@@ -165,10 +166,12 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const
   if (changed) made.evened = evened;
   MapAnchor& anchor = keyframe.anchor;
   anchor.T_world_view = keyframe.T_world_camera;
+  WindowPointOptions point_options = options_.window_points;
+  point_options.gradient_weight = options.gradient_weight;
   anchor.points =
       make_window_points(pyramid.cameras.front(), gradients, view, anchor.T_world_view,
-                         static_cast<int>(made.point_share * options_.window_points.anchor_points),
-                         anchor_selectors_.of(reference.bare), options_.window_points, options_.plane, DepthUse::fixed);
+                         static_cast<int>(made.point_share * point_options.anchor_points),
+                         anchor_selectors_.of(reference.bare), point_options, options_.plane, DepthUse::fixed);
   // Relative brightness of the image against the rendered one is (a_k - a_m, b_k - e^(a_k - a_m) b_m): solved for the
   // map's a_m and b_m.
   anchor.brightness.a = keyframe.brightness.a - alignment.brightness.a;

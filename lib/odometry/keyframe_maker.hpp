@@ -19,6 +19,12 @@ struct AnchorOptions {
   bool enabled = true;
   double noise = 5.0 / 255;  // [grey] residual of a rendered view at which it counts like a real image
   double strength = 4.0;     // factor of its weight: one rendered view stands against six keyframes
+  // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2) of the rendered view's points in the window. Edges of a map
+  // are out of place by parts of a pixel, so that strong ones say less than in an image. ATE [mm] with 10, and with the
+  // images' 50: icl_office_kt3 1.8, 2.1; redkitchen 20, 22; the stand-ins icl_3 3.0, 4.2 and augm_1 5.8, 6.2; but
+  // aug_icl_livingroom1, whose map is sharp, 0.67, 0.55. The alignment before keeps the images': by small ones alone,
+  // a map of other colours was believed.
+  double gradient_weight = 10.0 / 255;
   // Share of its points that must agree with the real image. The coarse map of a real room (20 dB) reaches 0.4 to 0.6
   // and still holds the camera: with 0.6 it drifted by 7 cm (7-Scenes redkitchen), with 0.4 by 2.4.
   double min_inliers = 0.4;
