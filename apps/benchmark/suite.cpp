@@ -7,12 +7,16 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <map>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
-#include "suite_texts.hpp"
 
 namespace odosplat::apps {
+
+/// data/suites by name of the file; odosplat_embed() in CMakeLists.txt writes it.
+const std::map<std::string_view, std::string_view>& suite_texts();
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -162,12 +166,13 @@ bool Suite::stand_in() const {
 
 Suite read_suite(const std::string& name_or_file, const std::string& root) {
   if (!root.empty() && !fs::is_directory(root)) throw InputError("--root", root + " is not a folder");
-  const std::string_view built_in = suite_text(name_or_file);
-  Suite suite = built_in.empty() ? parse(name_or_file, read_file(name_or_file))
-                                 : parse("suite " + name_or_file, std::string(built_in));
+  const auto text = suite_texts().find(name_or_file + ".yaml");
+  const bool built_in = text != suite_texts().end();
+  Suite suite = built_in ? parse("suite " + name_or_file, std::string(text->second))
+                         : parse(name_or_file, read_file(name_or_file));
   suite.folder = root;
-  if (root.empty() && built_in.empty()) suite.folder = fs::path(name_or_file).parent_path().string();
-  if (root.empty() && !built_in.empty() && !suite.stand_in()) {
+  if (root.empty() && !built_in) suite.folder = fs::path(name_or_file).parent_path().string();
+  if (root.empty() && built_in && !suite.stand_in()) {
     throw InputError("--root", "must name the folder of the recordings of suite " + name_or_file +
                                    ": what to download and where to put it is in data/README.md");
   }

@@ -225,8 +225,4 @@ SceneDescription parse_scene(const std::string& name, const std::string& text) {
   return SceneReader(name, text).read();
 }
 
-SceneDescription built_in_scene(const std::string& name) {
-  return parse_scene(name, std::string(built_in_scene_text(name)));
-}
-
 }  // namespace odosplat
