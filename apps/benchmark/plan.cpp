@@ -11,24 +11,13 @@
 #include "method_recipes.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/sequence.hpp"
+#include "protocol.hpp"
 
 namespace odosplat::apps {
 namespace {
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
-
-constexpr int mapping_step = 10;  // every tenth frame makes the map, as in the paper
-constexpr int quick_frames = 200;
-constexpr int quick_iterations = 1500;
-// The paper's recipe has no limit of growth and takes hours in a room: it is cut short here, as the report's maps show.
-constexpr int paper_iterations = 2000;
-constexpr int paper_budget = 200000;
-
-template <typename Value>
-bool contains(const std::vector<Value>& values, const Value& value) {
-  return std::find(values.begin(), values.end(), value) != values.end();
-}
 
 void append(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
 
@@ -56,8 +45,10 @@ class Planner {
     plan_.options = options;
     plan_.suite = suite.name;
     plan_.stand_in = suite.stand_in();
-    choose();
-    describe();
+    tested_ = chosen_sequences(options, suite);
+    plan_.methods = chosen_methods(options, suite);
+    plan_.mapping = mapping_in_words(options, plan_.stand_in);
+    plan_.quick = quick_in_words(options);
   }
 
   Plan make() {
@@ -73,56 +64,7 @@ class Planner {
   }
 
  private:
-  void choose() {
-    for (const std::string& name : options_.sequences) {
-      const auto found = std::find_if(suite_.sequences.begin(), suite_.sequences.end(),
-                                      [&](const SuiteSequence& s) { return s.name == name; });
-      if (found == suite_.sequences.end()) throw InputError("--sequences", "suite " + suite_.name + " has no " + name);
-    }
-    for (const SuiteSequence& s : suite_.sequences) {
-      if (options_.sequences.empty() || contains(options_.sequences, s.name)) tested_.push_back(&s);
-    }
-    plan_.methods = options_.methods;
-    if (plan_.methods.empty()) {
-      plan_.methods = {"gaussian", "interpolation", "surfel", "rgbd", "paper"};
-      for (const SuiteMethod& m : suite_.methods) plan_.methods.push_back(m.name);
-    }
-    for (const std::string& name : plan_.methods) {
-      if (std::count(plan_.methods.begin(), plan_.methods.end(), name) > 1) {
-        throw InputError("--methods", name + " is there twice");
-      }
-      if (method_recipe(name) == nullptr && own_method(name) == nullptr) {
-        std::string known;
-        for (const std::string& n : built_in_methods()) known += (known.empty() ? "" : ", ") + n;
-        for (const SuiteMethod& m : suite_.methods) known += ", " + m.name;
-        throw InputError("--methods", "there is no " + name + "; there are " + known);
-      }
-    }
-  }
-
-  void describe() {
-    const std::string step = std::to_string(mapping_step);
-    plan_.mapping =
-        split() ? "maps are made of every " + step +
-                      "th frame of other sequences of the scene than the tested one: two maps a scene, each of every "
-                      "other sequence, or, where a scene has one sequence, of its first half, tested on its second"
-                : "one map a scene, made of every " + step + "th frame of its tested sequences, as in the paper";
-    plan_.mapping += plan_.stand_in ? "; the cloud is a simulated lidar's"
-                                    : "; the cloud is the data set's, or made of the mapping frames' depth";
-    if (options_.quick) {
-      plan_.quick = "first " + std::to_string(quick_frames) + " frames of each sequence, maps of " +
-                    std::to_string(quick_iterations) + " training steps";
-    }
-  }
-
   bool split() const { return options_.mapping == "split"; }
-
-  const SuiteMethod* own_method(const std::string& name) const {
-    for (const SuiteMethod& m : suite_.methods) {
-      if (m.name == name) return &m;
-    }
-    return nullptr;
-  }
 
   void add_job(Job job) {
     if (std::none_of(plan_.jobs.begin(), plan_.jobs.end(), [&](const Job& j) { return j.id == job.id; })) {
@@ -199,7 +141,8 @@ class Planner {
                                              [&](const SuiteSequence& s) { return s.name == tested.name; });
     const auto all = of_scene(tested.scene);
     for (const SuiteSequence* s : all) {
-      const bool taken = split() ? all.size() == 1 || fold(*s) != fold(own) : contains(tested_, s);
+      const bool taken = split() ? all.size() == 1 || fold(*s) != fold(own)
+                                 : std::find(tested_.begin(), tested_.end(), s) != tested_.end();
       if (!taken) continue;
       const PlannedSequence planned = sequence(*s);
       sources.paths.push_back(planned.path);
@@ -328,7 +271,7 @@ class Planner {
         job.needs.push_back(cloud_job);
       }
     } else {
-      add_own_command(*own_method(method), s, planned, job);
+      add_own_command(*own_method(suite_, method), s, planned, job);
     }
     job.outputs = {planned.folder + "/trajectory.txt"};
     job.work = 0.008 * frames();
