@@ -3,13 +3,11 @@
 #include "plan.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cstdio>
 #include <filesystem>
 #include <map>
-#include <optional>
 
 #include "method_recipes.hpp"
-#include "odosplat/core/error.hpp"
 #include "odosplat/io/sequence.hpp"
 #include "protocol.hpp"
 
