@@ -12,7 +12,7 @@ foreach(file IN LISTS FILES)
   string(APPEND arrays "const unsigned char ${id}[] = {${bytes}0};\n")
   string(APPEND rows "      {\"${name}\", {reinterpret_cast<const char*>(${id}), sizeof(${id}) - 1}},\n")
 endforeach()
-file(WRITE ${OUT}.new "#include <map>
+file(WRITE ${OUT} "#include <map>
 #include <string_view>
 
 namespace ${NAMESPACE} {
@@ -28,5 +28,3 @@ ${rows}  };
 }
 }  // namespace ${NAMESPACE}
 ")
-file(COPY_FILE ${OUT}.new ${OUT} ONLY_IF_DIFFERENT)
-file(TOUCH ${OUT})
