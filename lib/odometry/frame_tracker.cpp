@@ -18,6 +18,8 @@ void AcceptOptions::check() const {
   require(min_correlation >= -1.0 && min_correlation <= 1.0, "accept.min_correlation", "in [-1, 1]");
   require(sure_correlation >= min_correlation, "accept.sure_correlation", "at least min_correlation");
   require(min_map_correlation >= -1.0 && min_map_correlation <= 1.0, "accept.min_map_correlation", "in [-1, 1]");
+  require(sure_map_correlation >= min_map_correlation && sure_map_correlation <= 1.0, "accept.sure_map_correlation",
+          "in [min_map_correlation, 1]");
   require(min_map_share >= 0.0 && min_map_share <= 1.0, "accept.min_map_share", "in [0, 1]");
   require(motion_translation > 0.0 && motion_rotation > 0.0, "accept.motion_translation and motion_rotation",
           "positive");

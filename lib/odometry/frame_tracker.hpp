@@ -27,6 +27,7 @@ struct AcceptOptions {
   // Of a keyframe with the map's rendered view, which must cover min_map_share of it. Right poses reach 0.71 and more
   // in the coarsest map. Where it falls below from one keyframe to the next, the camera is looked for elsewhere.
   double min_map_correlation = 0.3;
+  double sure_map_correlation = 0.7;  // a start pose is believed from here on; until then it is looked up
   double min_map_share = 0.6;
   // Of the deviation from constant velocity between two frames: holds what the image does not tell.
   double motion_translation = 0.005;  // [m] standard deviation

@@ -22,6 +22,7 @@ void AnchorOptions::check() const {
   require(gradient_weight > 0.0, "anchor.gradient_weight", "positive");
   require(bare_translation > 0.0 && bare_rotation > 0.0, "anchor.bare_translation and bare_rotation", "positive");
   require(far_off_angle > 0.0, "anchor.far_off_angle", "positive");
+  require(far_off_correlation >= -1.0 && far_off_correlation <= 1.0, "anchor.far_off_correlation", "in [-1, 1]");
   require(reset_flow >= render_again_flow, "anchor.reset_flow", "at least render_again_flow");
 }
 
@@ -97,7 +98,7 @@ MadeKeyframe KeyframeMaker::make(const EvenFrame& image, std::span<const Gradien
   made.keyframe->T_world_camera = T_world_camera;
   made.keyframe->brightness = brightness;
   made.keyframe->gradient = gradients.front();
-  if (made.in_map && made.verifiable) add_anchor(made, image, view, tracker, context.distrust_map);
+  if (made.in_map && made.verifiable) add_anchor(made, image, view, tracker, context);
   const bool map_believed = made.in_map && (!context.distrust_map || made.anchored || !made.verifiable);
   if (!map_believed) {
     made.in_map = false;
@@ -136,7 +137,7 @@ void KeyframeMaker::add_points(MadeKeyframe& made, const Camera& camera, std::sp
 }
 
 void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const ViewImages& view,
-                               const Tracker& tracker, bool far_off) {
+                               const Tracker& tracker, const KeyframeContext& context) {
   const FramePyramid& pyramid = *image.even;
   const AnchorOptions& options = options_.anchor;
   Keyframe& keyframe = *made.keyframe;
@@ -148,11 +149,14 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const
   if (reference.empty()) return;
   // Where does the image lie in the rendered one? Levels 2 to 0 where the tracked pose is good to a few pixels.
   Alignment alignment;
-  if (far_off) {
+  if (context.first || context.distrust_map) {
     std::vector<SE3> guesses{SE3()};
     for (const SE3& turned : rotated_guesses(SE3(), options.far_off_angle)) guesses.push_back(turned);
     alignment = tracker.align_best(reference, pyramid, guesses, {});
-  } else {
+  }
+  // Of so many guesses one may fit a map of other colours by chance: then the caller's pose is the better one.
+  const bool astray = context.first && !(alignment.finished && alignment.correlation >= options.far_off_correlation);
+  if (!context.distrust_map && (!context.first || astray)) {
     const PosePrior tracked = pose_prior(SE3(), options.bare_translation, options.bare_rotation);
     alignment = tracker.align(reference, pyramid, SE3(), {}, 2, 0, reference.bare ? &tracked : nullptr);
   }

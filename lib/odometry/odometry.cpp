@@ -12,6 +12,8 @@ namespace {
 
 enum StageIndex : std::size_t { stage_pyramid, stage_track, stage_relocalise };
 
+constexpr int most_start_lookups = 3;  // keyframes: the first may show nothing that is found
+
 bool shows_nothing(const FramePyramid& pyramid) {
   constexpr double least_spread = 1.0 / 255;
   cv::Scalar mean;
@@ -90,11 +92,13 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
   } else {
     // Until the first keyframe stands, the camera is where the caller said.
     request.T_world_camera = *T_world_camera_start_;
+    start_lookups_ = most_start_lookups;
     make_keyframe(request, result);
     if (result.keyframe) {
       result.status = TrackStatus::ok;
       result.inlier_share = 1.0;
       result.coverage = 1.0;
+      look_up_contradicted(image, request, result);
     }
   }
   result.map_share = map_share_;
@@ -145,7 +149,7 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
   }
   if (frame.keyframe_due()) {
     make_keyframe(request, result);
-    if (result.keyframe && map_contradicts()) relocalise(image, request, result, result.T_world_camera);
+    if (result.keyframe) look_up_contradicted(image, request, result);
   } else if (thread_ != nullptr && request.view == nullptr) {
     render_ahead(frame, request.time);
   }
@@ -194,7 +198,19 @@ bool Odometry::map_contradicts() {
   const AcceptOptions& accept = options_.accept;
   const bool agreed = map_agreed_;
   map_agreed_ = map_correlation_ >= accept.min_map_correlation;
-  return options_.keyframe.anchor.enabled && agreed && !map_agreed_ && map_share_ >= accept.min_map_share;
+  if (!options_.keyframe.anchor.enabled || map_share_ < accept.min_map_share) return false;
+  if (map_correlation_ >= accept.sure_map_correlation) start_lookups_ = 0;
+  if (start_lookups_ == 0) return agreed && !map_agreed_;
+  --start_lookups_;
+  return true;
+}
+
+void Odometry::look_up_contradicted(const GrayImage& image, const KeyframeRequest& request, TrackResult& result) {
+  if (!map_contradicts()) return;
+  // A pose that the map has pulled into place is only given up for one elsewhere.
+  std::optional<SE3> T_world_tracked;
+  if (result.anchored) T_world_tracked = result.T_world_camera;
+  if (relocalise(image, request, result, T_world_tracked)) start_lookups_ = 0;
 }
 
 void Odometry::finish() {

@@ -44,7 +44,8 @@ struct OdometryOptions {
   void check() const;
 };
 
-/// ok: tracked on from the last images. relocalised: found without them, after a loss or at a start without a pose.
+/// ok: tracked on from the last images. relocalised: found without them, after a loss or at a start whose pose is not
+/// known or wrong.
 enum class TrackStatus { ok, lost, relocalised };
 /// "ok", "lost", "relocalised".
 std::string to_string(TrackStatus status);
@@ -97,8 +98,8 @@ class Odometry {
   Odometry(const Camera& camera, MapView& map, const OdometryOptions& options, Relocalizer& relocalizer);
 
   /// Looks up images in the map (same camera) once tracking is lost and no keyframe of the window fits: each of the
-  /// first 15, then every fifth. It must outlive this; null: the window is all that is searched. With
-  /// options.background a look-up waits for the keyframe in the making.
+  /// first 15, then every fifth; and the first keyframes' until the map confirms the start pose. It must outlive this;
+  /// null: the window is all that is searched. With options.background a look-up waits for the keyframe in the making.
   void set_relocalizer(Relocalizer* relocalizer) { relocalizer_ = relocalizer; }
 
   /// Finds the camera of the next image (the camera's size, grey 0..1, else InputError) taken at `time` [s]. view: what
@@ -126,8 +127,11 @@ class Odometry {
   /// tracking has it (T_world_tracked).
   bool relocalise(const GrayImage& image, const KeyframeRequest& request, TrackResult& result,
                   const std::optional<SE3>& T_world_tracked = std::nullopt);
-  /// Whether the map has just stopped to look like the images.
+  /// Whether the last keyframe's map view speaks against its pose: the map has just stopped to look like the images,
+  /// or never did since a start whose pose was given.
   bool map_contradicts();
+  /// Looks the newest keyframe's image up if the map contradicts its pose.
+  void look_up_contradicted(const GrayImage& image, const KeyframeRequest& request, TrackResult& result);
   void make_keyframe(const KeyframeRequest& request, TrackResult& result);
   void take_over(const KeyframeRequest& request, const KeyframeOutcome& outcome);
   void take_over_finished(const std::optional<FinishedKeyframe>& finished);
@@ -149,6 +153,7 @@ class Odometry {
   Relocalizer* relocalizer_ = nullptr;
   int lost_in_a_row_ = 0;                   // images that show something
   bool map_agreed_ = false;                 // at the last keyframe
+  int start_lookups_ = 0;                   // left, of a given start pose that the map has not confirmed
   std::unique_ptr<KeyframeThread> thread_;  // last: it uses the back end until it is gone
 };
 

@@ -149,6 +149,17 @@ TEST_F(OdometryTest, TheMapPullsAWrongStartIntoPlace) {
   EXPECT_GT(ate(free), 0.005);
 }
 
+TEST_F(OdometryTest, ARoughStartIsMendedAtOnce) {
+  test::BoxRoom map;
+  for (const double sign : {-1.0, 1.0}) {
+    SCOPED_TRACE(sign);
+    const SE3 error(so3_exp(sign * Eigen::Vector3d{0.06, -0.06, 0.02}), sign * Eigen::Vector3d{0.06, -0.05, 0.06});
+    const Played run = play(map, 10, {}, error);
+    EXPECT_TRUE(run.live.front().anchored);
+    EXPECT_LT(ate(run), 0.002);
+  }
+}
+
 TEST_F(OdometryTest, AMapInOtherColoursDoesNoHarm) {
   test::BoxRoom inverted;  // not reachable by gain and offset alone
   inverted.gamma = -0.7;
@@ -219,6 +230,21 @@ TEST_F(OdometryTest, StartsWithoutAPose) {
   }
   EXPECT_EQ(odometry.statistics().relocalisations, 1);
   EXPECT_EQ(odometry.trajectory().size(), 20U);
+}
+
+TEST_F(OdometryTest, AWrongStartIsLookedUp) {
+  test::BoxRoom map;
+  for (const int away : {60, 120, 180}) {
+    SCOPED_TRACE(away);
+    Relocalizer relocalizer(camera_, map, path_places());
+    Odometry odometry(camera_, map, {}, test::room_path(away));
+    odometry.set_relocalizer(&relocalizer);
+    for (int k = 0; k < 10; ++k) {
+      const TrackResult result = odometry.track(world_.gray(camera_, test::room_path(k)), k / 30.0);
+      EXPECT_NE(result.status, TrackStatus::lost) << k;
+      EXPECT_LT((test::room_path(k).inverse() * result.T_world_camera).translation().norm(), 0.005) << k;
+    }
+  }
 }
 
 TEST_F(OdometryTest, AKidnappedCameraIsFoundAtOnce) {
