@@ -23,6 +23,7 @@ void AnchorOptions::check() const {
   require(bare_translation > 0.0 && bare_rotation > 0.0, "anchor.bare_translation and bare_rotation", "positive");
   require(far_off_angle > 0.0, "anchor.far_off_angle", "positive");
   require(far_off_correlation >= -1.0 && far_off_correlation <= 1.0, "anchor.far_off_correlation", "in [-1, 1]");
+  tone.check();
   require(reset_flow >= render_again_flow, "anchor.reset_flow", "at least render_again_flow");
 }
 
@@ -136,46 +137,64 @@ void KeyframeMaker::add_points(MadeKeyframe& made, const Camera& camera, std::sp
   keyframe.points.clear();
 }
 
+KeyframeMaker::RenderedReference KeyframeMaker::rendered_reference(const Camera& camera, const GrayImage& gray,
+                                                                   const ViewImages& view) {
+  const FramePyramid pyramid = build_frame_pyramid(camera, gray, options_.smoothing);
+  RenderedReference out;
+  out.gradients = build_gradients(pyramid);
+  out.reference = build_reference(pyramid, out.gradients, view, map_reference_selectors_.usual, options_.reference,
+                                  options_.plane, &map_reference_selectors_.weak);
+  return out;
+}
+
 void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const ViewImages& view,
                                const Tracker& tracker, const KeyframeContext& context) {
   const FramePyramid& pyramid = *image.even;
   const AnchorOptions& options = options_.anchor;
   Keyframe& keyframe = *made.keyframe;
-  const FramePyramid rendered = build_frame_pyramid(pyramid.cameras.front(), to_gray(view.color), options_.smoothing);
-  const auto gradients = build_gradients(rendered);
-  const TrackingReference reference =
-      build_reference(rendered, gradients, view, map_reference_selectors_.usual, options_.reference, options_.plane,
-                      &map_reference_selectors_.weak);
-  if (reference.empty()) return;
+  const GrayImage gray = to_gray(view.color);
+  RenderedReference rendered = rendered_reference(pyramid.cameras.front(), gray, view);
+  if (rendered.reference.empty()) return;
   // Where does the image lie in the rendered one? Levels 2 to 0 where the tracked pose is good to a few pixels.
   Alignment alignment;
   if (context.first || context.distrust_map) {
     std::vector<SE3> guesses{SE3()};
     for (const SE3& turned : rotated_guesses(SE3(), options.far_off_angle)) guesses.push_back(turned);
-    alignment = tracker.align_best(reference, pyramid, guesses, {});
+    alignment = tracker.align_best(rendered.reference, pyramid, guesses, {});
   }
   // Of so many guesses one may fit a map of other colours by chance: then the caller's pose is the better one.
   const bool astray = context.first && !(alignment.finished && alignment.correlation >= options.far_off_correlation);
   if (!context.distrust_map && (!context.first || astray)) {
     const PosePrior tracked = pose_prior(SE3(), options.bare_translation, options.bare_rotation);
-    alignment = tracker.align(reference, pyramid, SE3(), {}, 2, 0, reference.bare ? &tracked : nullptr);
+    alignment =
+        tracker.align(rendered.reference, pyramid, SE3(), {}, 2, 0, rendered.reference.bare ? &tracked : nullptr);
   }
   EvenFrame evened = image;
-  const bool changed = alignment.finished && even_rows(tracker, reference, evened, alignment);
+  const bool changed = alignment.finished && even_rows(tracker, rendered.reference, evened, alignment);
+  const auto good = [&](const Alignment& a) {
+    return a.finished && a.inlier_share >= options.min_inliers && a.coverage >= options.min_coverage &&
+           a.rmse <= options.max_rmse && std::abs(a.brightness.a) <= tracker.options().max_log_gain;
+  };
   made.anchor = alignment;
-  const bool good = alignment.finished && alignment.inlier_share >= options.min_inliers &&
-                    alignment.coverage >= options.min_coverage && alignment.rmse <= options.max_rmse &&
-                    std::abs(alignment.brightness.a) <= tracker.options().max_log_gain;
-  if (!good) return;
+  if (!good(alignment)) return;
+  if (const auto tone = estimate_tone(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness,
+                                      options.tone)) {
+    RenderedReference toned = rendered_reference(pyramid.cameras.front(), apply_tone(gray, *tone), view);
+    const Alignment again = tracker.align(toned.reference, *evened.even, alignment.T_target_host, {}, 1, 0);
+    if (good(again) && worth(again) > worth(alignment)) {
+      rendered = std::move(toned);
+      made.anchor = alignment = again;
+    }
+  }
   if (changed) made.evened = evened;
   MapAnchor& anchor = keyframe.anchor;
   anchor.T_world_view = keyframe.T_world_camera;
   WindowPointOptions point_options = options_.window_points;
   point_options.gradient_weight = options.gradient_weight;
   anchor.points =
-      make_window_points(pyramid.cameras.front(), gradients, view, anchor.T_world_view,
+      make_window_points(pyramid.cameras.front(), rendered.gradients, view, anchor.T_world_view,
                          static_cast<int>(made.point_share * point_options.anchor_points),
-                         anchor_selectors_.of(reference.bare), point_options, options_.plane, DepthUse::fixed);
+                         anchor_selectors_.of(rendered.reference.bare), point_options, options_.plane, DepthUse::fixed);
   // Relative brightness of the image against the rendered one is (a_k - a_m, b_k - e^(a_k - a_m) b_m): solved for the
   // map's a_m and b_m.
   anchor.brightness.a = keyframe.brightness.a - alignment.brightness.a;
@@ -183,7 +202,7 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const
   const double ratio = options.noise / std::max(options.noise, alignment.rmse);
   anchor.weight = options.strength * ratio * ratio * made.point_share;
   made.T_world_camera_map = anchor.T_world_view * alignment.T_target_host.inverse();
-  made.map_flow = keyframe_score(reference, alignment, 0.0, {}).full_flow;
+  made.map_flow = keyframe_score(rendered.reference, alignment, 0.0, {}).full_flow;
   made.anchored = !anchor.points.empty();
 }
 

@@ -10,6 +10,7 @@
 #include "odosplat/odometry/even_rows.hpp"
 #include "odosplat/odometry/immature_points.hpp"
 #include "odosplat/odometry/keyframe.hpp"
+#include "odosplat/odometry/tone_curve.hpp"
 #include "odosplat/odometry/tracker.hpp"
 #include "odosplat/odometry/window_points.hpp"
 
@@ -41,6 +42,8 @@ struct AnchorOptions {
   // Of a start that is found from turned guesses; below, the start pose alone is tried. Right ones reach 0.8 to 0.96
   // before they are rendered again, chance 0.68, and 0.83 in a map of inverted colours.
   double far_off_correlation = 0.9;
+
+  ToneOptions tone;  // of the image against the map's colours
 
   void check() const;
 };
@@ -107,6 +110,12 @@ class KeyframeMaker {
  private:
   void add_anchor(MadeKeyframe& made, const EvenFrame& image, const ViewImages& view, const Tracker& tracker,
                   const KeyframeContext& context);
+  /// What the tracker and the window need of a rendered view, in other grey values than its own if these are toned.
+  struct RenderedReference {
+    std::vector<GradientImage> gradients;
+    TrackingReference reference;
+  };
+  RenderedReference rendered_reference(const Camera& camera, const GrayImage& gray, const ViewImages& view);
   ViewImages without_border(const ViewImages& view, double share) const;
   void add_points(MadeKeyframe& made, const Camera& camera, std::span<const GradientImage> gradients,
                   const ViewImages& view, bool first);

@@ -6,10 +6,10 @@
 #include <functional>
 #include <numbers>
 
-#include "box_room.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/odometry/even_rows.hpp"
 #include "odosplat/odometry/odometry.hpp"
+#include "room_pair.hpp"
 
 namespace odosplat {
 namespace {
@@ -17,28 +17,15 @@ namespace {
 /// Gain at 0..1 over the rows.
 using Curve = std::function<double(double)>;
 
-class RowGainTest : public testing::Test {
+class RowGainTest : public test::RoomPairTest {
  protected:
-  RowGainTest() {
-    const FramePyramid host = build_frame_pyramid(camera_, room_.gray(camera_, T_world_host_));
-    PixelSelector selector({});
-    reference_ =
-        build_reference(host, build_gradients(host), room_.render(camera_, T_world_host_, {}), selector, {}, {});
-  }
-
   static double at_row(int row, int rows) { return (row + 0.5) / rows; }
 
   std::shared_ptr<const FramePyramid> seen(const Curve& gain) const {
-    GrayImage image = room_.gray(camera_, T_world_host_ * T_target_host_.inverse());
-    for (int y = 0; y < image.rows; ++y) {
-      for (int x = 0; x < image.cols; ++x) image(y, x) *= static_cast<float>(gain(at_row(y, image.rows)));
-    }
-    return std::make_shared<FramePyramid>(build_frame_pyramid(camera_, image));
+    return RoomPairTest::seen([&](GrayImage& image) {
+      for (int y = 0; y < image.rows; ++y) image.row(y) *= gain(at_row(y, image.rows));
+    });
   }
-
-  Alignment aligned(const FramePyramid& target) const { return tracker_.align(reference_, target, SE3(), {}, 9, 0); }
-
-  double error_m(const Alignment& a) const { return (T_target_host_.inverse() * a.T_target_host).translation().norm(); }
 
   /// Root mean square difference from the curve, both of mean 1.
   static double error(const RowGain& gain, const Curve& truth) {
@@ -51,13 +38,6 @@ class RowGainTest : public testing::Test {
     }
     return std::sqrt(squares);
   }
-
-  Camera camera_ = test::small_camera();
-  test::BoxRoom room_;
-  SE3 T_world_host_ = test::room_path(20);
-  SE3 T_target_host_{so3_exp({0.01, -0.02, 0.015}), {0.03, 0.01, -0.02}};
-  TrackingReference reference_;
-  Tracker tracker_{{}};
 
   const Curve even_ = [](double) { return 1.0; };
   const Curve ramp_ = [](double at) { return 1.2 - 0.4 * at; };

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "odosplat/odometry/frame.hpp"
+#include "odosplat/odometry/tracking_reference.hpp"
+
+namespace odosplat {
+
+/// The four uniform cubic B-splines that are not zero at a place, of which the first is number `first`.
+struct Splines {
+  int first = 0;
+  Eigen::Vector4d value = Eigen::Vector4d::Zero();
+};
+
+/// at: 0..1 over `spans` spans, clamped. There are spans + 3 splines.
+Splines splines_at(double at, int spans);
+
+/// One point of a reference in the image that was aligned with it.
+struct BrightnessSample {
+  Eigen::Matrix<double, 8, 1> by_alignment;  // derivatives of the residual by pose, log gain and offset
+  double host = 0.0;                         // [grey] the reference's value
+  double expected = 0.0;                     // [grey] the same with the image's gain and offset
+  double residual = 0.0;                     // [grey] image less expected
+  double weight = 0.0;
+  double height = 0.0;    // 0..1 over the image's rows
+  Splines curve;          // for a fit: what of the curve this sample sees
+  double by_curve = 0.0;  // for a fit: derivative of the residual by the curve there
+};
+
+/// The points in view that are not clipped, on half size: enough for a smooth curve, and forgiving where the pose is
+/// off.
+std::vector<BrightnessSample> brightness_samples(const TrackingReference& reference, const FramePyramid& target,
+                                                 const SE3& T_target_host, const Brightness& brightness);
+
+struct SplineFitOptions {
+  double alike = 1.0;        // weight of the squared difference of neighbouring coefficients, in [grey^2]
+  double huber = 9.0 / 255;  // [grey] residuals beyond weigh less
+};
+
+struct SplineFit {
+  Eigen::VectorXd coefficients;  // mean near 0: the alignment takes it
+  double cost = 0.0;             // robust
+};
+
+/// A curve of `splines` coefficients (0: none), fitted together with a small change of the alignment, so that a pose
+/// that the curve has moved does not hide it. Pure function.
+SplineFit fit_splines(const std::vector<BrightnessSample>& samples, int splines, const SplineFitOptions& options);
+
+}  // namespace odosplat
