@@ -9,7 +9,6 @@
 namespace odosplat {
 namespace {
 
-constexpr std::size_t level = 1;
 constexpr int reweightings = 3;
 
 }  // namespace
@@ -25,7 +24,8 @@ Splines splines_at(double at, int spans) {
 }
 
 std::vector<BrightnessSample> brightness_samples(const TrackingReference& reference, const FramePyramid& target,
-                                                 const SE3& T_target_host, const Brightness& brightness) {
+                                                 const SE3& T_target_host, const Brightness& brightness,
+                                                 std::size_t level) {
   std::vector<BrightnessSample> samples;
   if (reference.levels.size() <= level || target.gray.size() <= level) return samples;
   const Camera& camera = reference.cameras[level];
@@ -45,6 +45,8 @@ std::vector<BrightnessSample> brightness_samples(const TrackingReference& refere
     for (int i = 0; i < 8; ++i) sample.by_alignment[i] = (i < 7 ? gain : 1.0) * point.jacobian[i];
     sample.residual = value - sample.expected;
     sample.weight = point.weight;
+    sample.u = point.u;
+    sample.v = point.v;
     sample.height = (uv.y() + 0.5) / image.rows;
     samples.push_back(sample);
   }

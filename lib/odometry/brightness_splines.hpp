@@ -26,15 +26,18 @@ struct BrightnessSample {
   double expected = 0.0;                     // [grey] the same with the image's gain and offset
   double residual = 0.0;                     // [grey] image less expected
   double weight = 0.0;
+  double u = 0.0;  // [px] in the reference, on that level
+  double v = 0.0;
   double height = 0.0;    // 0..1 over the image's rows
   Splines curve;          // for a fit: what of the curve this sample sees
   double by_curve = 0.0;  // for a fit: derivative of the residual by the curve there
 };
 
-/// The points in view that are not clipped, on half size: enough for a smooth curve, and forgiving where the pose is
-/// off.
+/// The points in view that are not clipped. level: of both; half size is enough for a smooth curve, and forgiving where
+/// the pose is off.
 std::vector<BrightnessSample> brightness_samples(const TrackingReference& reference, const FramePyramid& target,
-                                                 const SE3& T_target_host, const Brightness& brightness);
+                                                 const SE3& T_target_host, const Brightness& brightness,
+                                                 std::size_t level = 1);
 
 struct SplineFitOptions {
   double alike = 1.0;        // weight of the squared difference of neighbouring coefficients, in [grey^2]

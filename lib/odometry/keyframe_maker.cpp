@@ -24,6 +24,7 @@ void AnchorOptions::check() const {
   require(far_off_angle > 0.0, "anchor.far_off_angle", "positive");
   require(far_off_correlation >= -1.0 && far_off_correlation <= 1.0, "anchor.far_off_correlation", "in [-1, 1]");
   tone.check();
+  agreement.check();
   require(reset_flow >= render_again_flow, "anchor.reset_flow", "at least render_again_flow");
 }
 
@@ -195,6 +196,11 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const
       make_window_points(pyramid.cameras.front(), rendered.gradients, view, anchor.T_world_view,
                          static_cast<int>(made.point_share * point_options.anchor_points),
                          anchor_selectors_.of(rendered.reference.bare), point_options, options_.plane, DepthUse::fixed);
+  const AgreementGrid agreement = local_agreement(rendered.reference, *evened.even, alignment.T_target_host,
+                                                  alignment.brightness, options.agreement);
+  for (WindowPoint& point : anchor.points) {
+    for (float& weight : point.weight) weight *= static_cast<float>(agreement.at(point.u, point.v));
+  }
   // Relative brightness of the image against the rendered one is (a_k - a_m, b_k - e^(a_k - a_m) b_m): solved for the
   // map's a_m and b_m.
   anchor.brightness.a = keyframe.brightness.a - alignment.brightness.a;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <vector>
+
+#include "odosplat/core/se3.hpp"
+#include "odosplat/odometry/frame.hpp"
+#include "odosplat/odometry/tracking_reference.hpp"
+
+namespace odosplat {
+
+struct AgreementOptions {
+  int columns = 20;             // of square blocks over the image's width
+  double noise = 4.0 / 255;     // [grey] root mean square residual of a block up to which its points weigh in full
+  double outlier = 40.0 / 255;  // [grey] residuals count as at most this
+  double prior = 4.0;           // points with that noise that every block is given
+
+  void check() const;
+};
+
+/// Weight 0..1 of each block of a reference's image.
+struct AgreementGrid {
+  double block = 1.0;  // [px]
+  int columns = 0;
+  int rows = 0;
+  std::vector<double> weight;  // row after row
+
+  /// u, v: pixel of the reference, full size.
+  double at(double u, double v) const;
+};
+
+/// How far a reference and the image that it was aligned with agree, place by place: inverse variance of the residuals
+/// of a block's points. A map errs by regions: relief finer than its cloud, surfaces that few images saw. Pure
+/// function.
+AgreementGrid local_agreement(const TrackingReference& reference, const FramePyramid& target, const SE3& T_target_host,
+                              const Brightness& brightness, const AgreementOptions& options);
+
+}  // namespace odosplat

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <gtest/gtest.h>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/odometry/local_agreement.hpp"
+#include "room_pair.hpp"
+
+namespace odosplat {
+namespace {
+
+class LocalAgreementTest : public test::RoomPairTest {
+ protected:
+  AgreementGrid grid(const FramePyramid& target, const AgreementOptions& options = {}) const {
+    return local_agreement(reference_, target, T_target_host_, {}, options);
+  }
+};
+
+TEST_F(LocalAgreementTest, WhereAllAgreesAllWeighsInFull) {
+  const AgreementGrid all = grid(*seen([](GrayImage&) {}));
+  EXPECT_EQ(all.columns, 20);
+  EXPECT_EQ(all.rows, 15);
+  ASSERT_EQ(all.weight.size(), 300U);
+  for (const double weight : all.weight) EXPECT_EQ(weight, 1.0);
+}
+
+TEST_F(LocalAgreementTest, WhereTheImageIsAnotherPointsWeighLess) {
+  // The left half of the image is 20 grey levels brighter: residuals of five times the noise.
+  const auto target = seen([](GrayImage& image) { image.colRange(0, image.cols / 2) += 20.0F / 255.0F; });
+  const AgreementGrid half = grid(*target);
+  int points_left = 0;
+  for (const ReferencePoint& point : reference_.levels.front()) {
+    // The camera has moved by up to 9 pixels.
+    if (point.u > 68.0F && point.u < 92.0F) continue;
+    const bool left = point.u < 80.0F;
+    points_left += left ? 1 : 0;
+    const double weight = half.at(point.u, point.v);
+    if (left) {
+      EXPECT_LT(weight, 0.9);
+    } else {
+      EXPECT_EQ(weight, 1.0);
+    }
+  }
+  EXPECT_GT(points_left, 100);
+}
+
+TEST_F(LocalAgreementTest, IsTheInverseVarianceOfTheResiduals) {
+  AgreementOptions options;
+  options.columns = 1;
+  options.prior = 1e-6;
+  const double residual = 10.0 / 255;
+  const auto target = seen([&](GrayImage& image) { image += residual; });
+  EXPECT_NEAR(grid(*target, options).at(80.0, 60.0), std::pow(options.noise / residual, 2), 0.01);
+  const auto far = seen([&](GrayImage& image) { image += 0.3; });
+  EXPECT_NEAR(grid(*far, options).at(80.0, 60.0), std::pow(options.noise / options.outlier, 2), 1e-6);
+}
+
+TEST_F(LocalAgreementTest, BadOptionsAreRefused) {
+  AgreementOptions options;
+  options.noise = 0.0;
+  EXPECT_THROW(options.check(), InputError);
+}
+
+}  // namespace
+}  // namespace odosplat
