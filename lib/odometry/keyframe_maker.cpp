@@ -11,6 +11,28 @@
 #include "odosplat/odometry/motion_model.hpp"
 
 namespace odosplat {
+namespace {
+
+/// Where does the image lie in the rendered one? Levels 2 to 0 where the tracked pose is good to a few pixels.
+Alignment find_in_view(const TrackingReference& reference, const FramePyramid& image, const Tracker& tracker,
+                       const AnchorOptions& options, const KeyframeContext& context) {
+  if (context.first || context.distrust_map) {
+    std::vector<SE3> guesses{SE3()};
+    for (const SE3& turned : rotated_guesses(SE3(), options.far_off_angle)) guesses.push_back(turned);
+    const Alignment found = tracker.align_best(reference, image, guesses, {});
+    // Of so many guesses one may fit a map of other colours by chance: then the caller's pose is the better one.
+    if (context.distrust_map || (found.finished && found.correlation >= options.far_off_correlation)) return found;
+  }
+  const PosePrior tracked = pose_prior(SE3(), options.bare_translation, options.bare_rotation);
+  return tracker.align(reference, image, SE3(), {}, 2, 0, reference.bare ? &tracked : nullptr);
+}
+
+bool is_good(const Alignment& a, const AnchorOptions& options, double max_log_gain) {
+  return a.finished && a.inlier_share >= options.min_inliers && a.coverage >= options.min_coverage &&
+         a.rmse <= options.max_rmse && std::abs(a.brightness.a) <= max_log_gain;
+}
+
+}  // namespace
 
 void AnchorOptions::check() const {
   require(noise > 0.0, "anchor.noise", "positive");
@@ -156,33 +178,17 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const
   const GrayImage gray = to_gray(view.color);
   RenderedReference rendered = rendered_reference(pyramid.cameras.front(), gray, view);
   if (rendered.reference.empty()) return;
-  // Where does the image lie in the rendered one? Levels 2 to 0 where the tracked pose is good to a few pixels.
-  Alignment alignment;
-  if (context.first || context.distrust_map) {
-    std::vector<SE3> guesses{SE3()};
-    for (const SE3& turned : rotated_guesses(SE3(), options.far_off_angle)) guesses.push_back(turned);
-    alignment = tracker.align_best(rendered.reference, pyramid, guesses, {});
-  }
-  // Of so many guesses one may fit a map of other colours by chance: then the caller's pose is the better one.
-  const bool astray = context.first && !(alignment.finished && alignment.correlation >= options.far_off_correlation);
-  if (!context.distrust_map && (!context.first || astray)) {
-    const PosePrior tracked = pose_prior(SE3(), options.bare_translation, options.bare_rotation);
-    alignment =
-        tracker.align(rendered.reference, pyramid, SE3(), {}, 2, 0, rendered.reference.bare ? &tracked : nullptr);
-  }
+  Alignment alignment = find_in_view(rendered.reference, pyramid, tracker, options, context);
   EvenFrame evened = image;
   const bool changed = alignment.finished && even_rows(tracker, rendered.reference, evened, alignment);
-  const auto good = [&](const Alignment& a) {
-    return a.finished && a.inlier_share >= options.min_inliers && a.coverage >= options.min_coverage &&
-           a.rmse <= options.max_rmse && std::abs(a.brightness.a) <= tracker.options().max_log_gain;
-  };
+  const double max_log_gain = tracker.options().max_log_gain;
   made.anchor = alignment;
-  if (!good(alignment)) return;
+  if (!is_good(alignment, options, max_log_gain)) return;
   if (const auto tone = estimate_tone(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness,
                                       options.tone)) {
     RenderedReference toned = rendered_reference(pyramid.cameras.front(), apply_tone(gray, *tone), view);
     const Alignment again = tracker.align(toned.reference, *evened.even, alignment.T_target_host, {}, 1, 0);
-    if (good(again) && worth(again) > worth(alignment)) {
+    if (is_good(again, options, max_log_gain) && worth(again) > worth(alignment)) {
       rendered = std::move(toned);
       made.anchor = alignment = again;
     }

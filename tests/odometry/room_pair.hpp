@@ -4,11 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <memory>
 
 #include "box_room.hpp"
-#include "odosplat/odometry/tracker.hpp"
+#include "odosplat/odometry/odometry.hpp"
 
 namespace odosplat::test {
 
@@ -39,5 +40,25 @@ class RoomPairTest : public testing::Test {
   TrackingReference reference_;
   Tracker tracker_{{}};
 };
+
+/// Root mean square position error [m] of a run of 90 frames through the room, whose image number k is spoilt first.
+inline double error_of_run(const OdometryOptions& options, const std::function<void(int k, GrayImage&)>& spoil) {
+  constexpr int frames = 90;
+  const Camera camera = small_camera();
+  BoxRoom room;
+  Odometry odometry(camera, room, options, room_path(0));
+  for (int k = 0; k < frames; ++k) {
+    GrayImage image = room.gray(camera, room_path(k));
+    spoil(k, image);
+    odometry.track(image, k / 30.0);
+  }
+  EXPECT_EQ(odometry.statistics().lost, 0);
+  double squares = 0.0;
+  for (const StampedPose& pose : odometry.trajectory()) {
+    const SE3 truth = room_path(static_cast<int>(std::lround(pose.time * 30.0)));
+    squares += (truth.inverse() * pose.T_world_camera).translation().squaredNorm();
+  }
+  return std::sqrt(squares / frames);
+}
 
 }  // namespace odosplat::test

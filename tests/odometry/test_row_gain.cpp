@@ -8,7 +8,6 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/odometry/even_rows.hpp"
-#include "odosplat/odometry/odometry.hpp"
 #include "room_pair.hpp"
 
 namespace odosplat {
@@ -130,35 +129,18 @@ TEST_F(RowGainTest, OfTooFewPointsIsEmpty) {
   EXPECT_TRUE(estimate_row_gain(few, *seen(waves_), T_target_host_, {}, {}).empty());
 }
 
-/// Root mean square position error [m] of a run through the room in light that rolls over the rows.
-double error_in_rolling_light(const OdometryOptions& options) {
-  constexpr int frames = 90;
-  const Camera camera = test::small_camera();
-  test::BoxRoom room;
-  Odometry odometry(camera, room, options, test::room_path(0));
-  for (int k = 0; k < frames; ++k) {
-    GrayImage image = room.gray(camera, test::room_path(k));
+TEST(RowGain, KeepsThePathThroughLightThatRollsOverTheRows) {
+  const auto roll = [](int k, GrayImage& image) {
     for (int y = 0; y < image.rows; ++y) {
       const double turn = 1.3 * y / image.rows + k / 40.0;
       image.row(y) *= 1.0 + 0.15 * std::sin(2.0 * std::numbers::pi * turn);
     }
-    odometry.track(image, k / 30.0);
-  }
-  EXPECT_EQ(odometry.statistics().lost, 0);
-  double squares = 0.0;
-  for (const StampedPose& pose : odometry.trajectory()) {
-    const SE3 truth = test::room_path(static_cast<int>(std::lround(pose.time * 30.0)));
-    squares += (truth.inverse() * pose.T_world_camera).translation().squaredNorm();
-  }
-  return std::sqrt(squares / frames);
-}
-
-TEST(RowGain, KeepsThePathThroughLightThatRollsOverTheRows) {
+  };
   OdometryOptions options;
-  const double error = error_in_rolling_light(options);
+  const double error = test::error_of_run(options, roll);
   EXPECT_LT(error, 0.0015);
   options.tracker.row_gain.enabled = false;
-  EXPECT_GT(error_in_rolling_light(options), 3.0 * error);
+  EXPECT_GT(test::error_of_run(options, roll), 3.0 * error);
 }
 
 TEST(RowGain, UnevennessIsARootMeanSquare) {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "odosplat/core/error.hpp"
-#include "odosplat/odometry/odometry.hpp"
 #include "odosplat/odometry/tone_curve.hpp"
 #include "room_pair.hpp"
 
@@ -102,31 +101,12 @@ TEST(ToneCurve, BadOptionsAreRefused) {
   EXPECT_THROW(options.check(), InputError);
 }
 
-/// Root mean square position error [m] of a run whose images have another gamma than the map's colours.
-double error_with_gamma(const OdometryOptions& options) {
-  constexpr int frames = 90;
-  const Camera camera = test::small_camera();
-  test::BoxRoom room;
-  Odometry odometry(camera, room, options, test::room_path(0));
-  for (int k = 0; k < frames; ++k) {
-    GrayImage image = room.gray(camera, test::room_path(k));
-    raise(image, 0.4);
-    odometry.track(image, k / 30.0);
-  }
-  EXPECT_EQ(odometry.statistics().lost, 0);
-  double squares = 0.0;
-  for (const StampedPose& pose : odometry.trajectory()) {
-    const SE3 truth = test::room_path(static_cast<int>(std::lround(pose.time * 30.0)));
-    squares += (truth.inverse() * pose.T_world_camera).translation().squaredNorm();
-  }
-  return std::sqrt(squares / frames);
-}
-
 TEST(ToneCurve, TakesTheBiasOffACameraWithAnotherGamma) {
+  const auto brighter = [](int, GrayImage& image) { raise(image, 0.4); };
   OdometryOptions options;
-  const double error = error_with_gamma(options);
+  const double error = test::error_of_run(options, brighter);
   options.keyframe.anchor.tone.enabled = false;
-  const double without = error_with_gamma(options);
+  const double without = test::error_of_run(options, brighter);
   EXPECT_LT(error, 0.001);
   EXPECT_GT(without, 2.0 * error);
 }
