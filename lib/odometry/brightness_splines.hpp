@@ -3,6 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "odosplat/odometry/frame.hpp"
@@ -39,18 +42,20 @@ std::vector<BrightnessSample> brightness_samples(const TrackingReference& refere
                                                  const SE3& T_target_host, const Brightness& brightness,
                                                  std::size_t level = 1);
 
-struct SplineFitOptions {
-  double alike = 1.0;        // weight of the squared difference of neighbouring coefficients, in [grey^2]
-  double huber = 9.0 / 255;  // [grey] residuals beyond weigh less
+struct CurveFitOptions {
+  int spans;         // of a uniform cubic B-spline, 1 to 50
+  double sigma;      // prior of the difference of neighbouring coefficients around 0
+  double noise;      // [grey] of one residual
+  double huber;      // [grey] residuals beyond weigh less
+  double explained;  // cost with a curve over the cost without one, above which it is not believed
+
+  /// Throws InputError naming the field of `owner`.
+  void check(const std::string& owner) const;
 };
 
-struct SplineFit {
-  Eigen::VectorXd coefficients;  // mean near 0: the alignment takes it
-  double cost = 0.0;             // robust
-};
-
-/// A curve of `splines` coefficients (0: none), fitted together with a small change of the alignment, so that a pose
-/// that the curve has moved does not hide it. Pure function.
-SplineFit fit_splines(const std::vector<BrightnessSample>& samples, int splines, const SplineFitOptions& options);
+/// Coefficients (spans + 3, mean near 0: the alignment takes it) of the curve that the samples see, fitted robustly
+/// together with a small change of the alignment, so that a pose that the curve has moved does not hide it. None: it is
+/// not believed. Pure function.
+std::optional<Eigen::VectorXd> fit_curve(const std::vector<BrightnessSample>& samples, const CurveFitOptions& options);
 
 }  // namespace odosplat

@@ -74,7 +74,7 @@ struct KeyframeMakerOptions {
 
 /// What is known beside the image and the map.
 struct KeyframeContext {
-  bool first = false;         // there is no other keyframe to search in, and the pose is a guess of the caller's
+  bool first = false;         // there is no other keyframe to search in, and the pose is not a tracked one
   int other_points = 0;       // estimated points of other keyframes that this image sees; they count towards min_points
   bool distrust_map = false;  // the camera has been outside the map: where the map was rendered from may be far off, so
                               // that its depth is used only if the rendered image is found in the real one

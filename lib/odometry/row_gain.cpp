@@ -14,6 +14,10 @@ namespace {
 
 constexpr int least_points = 100;  // in view
 
+CurveFitOptions curve_fit(const RowGainOptions& options) {
+  return {options.spans, options.sigma, options.noise, options.huber, options.explained};
+}
+
 /// The splines at every row of an image, 1 added, divided by the mean.
 RowGain curve(const Eigen::VectorXd& coefficients, int spans, int rows) {
   RowGain gain(static_cast<std::size_t>(rows));
@@ -30,11 +34,8 @@ RowGain curve(const Eigen::VectorXd& coefficients, int spans, int rows) {
 }  // namespace
 
 void RowGainOptions::check() const {
-  require(spans >= 1 && spans <= 50, "row_gain.spans", "1 to 50");
-  require(sigma > 0.0, "row_gain.sigma", "positive");
-  require(noise > 0.0 && huber > 0.0, "row_gain.noise and huber", "positive");
+  curve_fit(*this).check("row_gain");
   require(least > 0.0, "row_gain.least", "positive");
-  require(explained > 0.0 && explained <= 1.0, "row_gain.explained", "in (0, 1]");
   require(same >= 0.0, "row_gain.same", "at least 0");
 }
 
@@ -46,11 +47,9 @@ RowGain estimate_row_gain(const TrackingReference& reference, const FramePyramid
     sample.curve = splines_at(sample.height, options.spans);
     sample.by_curve = -sample.expected;
   }
-  const SplineFitOptions fit{options.noise * options.noise / (options.sigma * options.sigma), options.huber};
-  const SplineFit even = fit_splines(samples, 0, fit);
-  const SplineFit uneven = fit_splines(samples, options.spans + 3, fit);
-  if (!uneven.coefficients.allFinite() || !(uneven.cost < options.explained * even.cost)) return {};
-  RowGain gain = curve(uneven.coefficients, options.spans, target.gray.front().rows);
+  const auto coefficients = fit_curve(samples, curve_fit(options));
+  if (!coefficients) return {};
+  RowGain gain = curve(*coefficients, options.spans, target.gray.front().rows);
   if (unevenness(gain) < options.least) gain.clear();
   return gain;
 }

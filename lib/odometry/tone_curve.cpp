@@ -14,6 +14,10 @@ namespace {
 constexpr int least_points = 300;  // in view
 constexpr float steps = 255.0F;
 
+CurveFitOptions curve_fit(const ToneOptions& options) {
+  return {options.spans, options.sigma, options.noise, options.huber, options.explained};
+}
+
 float value_at(const ToneCurve& curve, float grey) {
   const float x = std::clamp(grey, 0.0F, 1.0F) * steps;
   const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(x), curve.size() - 2);
@@ -23,11 +27,8 @@ float value_at(const ToneCurve& curve, float grey) {
 }  // namespace
 
 void ToneOptions::check() const {
-  require(spans >= 1 && spans <= 50, "tone.spans", "1 to 50");
-  require(sigma > 0.0, "tone.sigma", "positive");
-  require(noise > 0.0 && huber > 0.0, "tone.noise and huber", "positive");
+  curve_fit(*this).check("tone");
   require(least > 0.0, "tone.least", "positive");
-  require(explained > 0.0 && explained <= 1.0, "tone.explained", "in (0, 1]");
   require(min_slope > 0.0 && min_slope < 1.0, "tone.min_slope", "in (0, 1)");
 }
 
@@ -41,23 +42,21 @@ std::optional<ToneCurve> estimate_tone(const TrackingReference& reference, const
     sample.curve = splines_at(sample.host, options.spans);
     sample.by_curve = -1.0;
   }
-  const SplineFitOptions fit{options.noise * options.noise / (options.sigma * options.sigma), options.huber};
-  const SplineFit straight = fit_splines(samples, 0, fit);
-  const SplineFit bent = fit_splines(samples, options.spans + 3, fit);
-  if (!bent.coefficients.allFinite()) return {};
+  const auto coefficients = fit_curve(samples, curve_fit(options));
+  if (!coefficients) return {};
   double squares = 0.0;
   for (const BrightnessSample& sample : samples) {
-    const double bend = sample.curve.value.dot(bent.coefficients.segment<4>(sample.curve.first));
+    const double bend = sample.curve.value.dot(coefficients->segment<4>(sample.curve.first));
     squares += bend * bend;
   }
   const double gain = std::exp(brightness.a);
   const double size = std::sqrt(squares / static_cast<double>(samples.size()));
-  if (size < options.least * gain || !(bent.cost < options.explained * straight.cost)) return {};
+  if (size < options.least * gain) return {};
   ToneCurve curve;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const double grey = static_cast<double>(i) / steps;
     const Splines at = splines_at(grey, options.spans);
-    curve[i] = static_cast<float>(grey + at.value.dot(bent.coefficients.segment<4>(at.first)) / gain);
+    curve[i] = static_cast<float>(grey + at.value.dot(coefficients->segment<4>(at.first)) / gain);
     if (i > 0 && !((curve[i] - curve[i - 1]) * steps >= options.min_slope)) return {};
   }
   return curve;
