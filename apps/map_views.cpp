@@ -125,6 +125,7 @@ OpenedView open_view(const Common& common, const std::string& method, const MapF
       GaussianViewOptions options;
       options.depth_mode = flags.depth.empty() ? preset.depth_mode : depth_mode(flags.depth);
       options.sigma = read_sigma_model(flags.map);
+      options.rasterizer.order = read_blend_order(flags.map);
       opened.device = open_device(common);
       opened.view = std::make_unique<GaussianView>(*opened.device, gaussians, options);
       break;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   One item GW Gaussians: their splats, their depths as sort keys (~0: not drawn), the numbers of tiles they reach, and
+   One item GW Gaussians: their splats, their depths or distances as sort keys (~0: not drawn), the numbers of tiles they reach, and
    their ellipses for emit_pairs (tiles.cl comes first). selected, where `select`: which Gaussians, n of them; all that is
    written is in its order. */
 
@@ -12,7 +12,7 @@
 kernel void project(int n, int select, global const uint* restrict selected, global const float* restrict positions,
                     global const float* restrict log_scales, global const float* restrict rotations,
                     global const float* restrict opacity_logits, float16 pose, float8 lens, int4 size, float dilation,
-                    int compensated, int ray_plane, WANTED_ARGUMENTS, global float4* restrict splats,
+                    int compensated, int ray_plane, int by_distance, WANTED_ARGUMENTS, global float4* restrict splats,
                     global float* restrict boxes, global uint* restrict depth_keys, global uint* restrict counts) {
   const int item = get_global_id(0), first = item * GW;
   if (first >= n) return;
@@ -49,7 +49,9 @@ kernel void project(int n, int select, global const uint* restrict selected, glo
   box.tilt = -0.5f * B / C * half_x;
   store_ellipse(boxes, item, &box);
   float columns[11][GW];
+  float near_to_far[GW];
   int is_drawn[GW];
+  STORE_LANES(by_distance ? sqrt(s.p.x * s.p.x + s.p.y * s.p.y + s.p.z * s.p.z) : s.p.z, near_to_far);
   STORE_LANES(s.u, columns[0]);
   STORE_LANES(s.v, columns[1]);
   STORE_LANES(A, columns[2]);
@@ -67,7 +69,7 @@ kernel void project(int n, int select, global const uint* restrict selected, glo
   const int lanes = min(GW, n - first);
   for (int i = 0; i < lanes; ++i) {
     const int g = first + i;
-    depth_keys[g] = is_drawn[i] != 0 ? as_uint(columns[6][i]) : 0xffffffffu;
+    depth_keys[g] = is_drawn[i] != 0 ? as_uint(near_to_far[i]) : 0xffffffffu;
     counts[g] = count[i];
     splats[SPLAT_VECTORS * g] = (float4)(columns[0][i], columns[1][i], columns[2][i], columns[3][i]);
     splats[SPLAT_VECTORS * g + 1] = (float4)(columns[4][i], columns[5][i], columns[6][i], columns[9][i]);

@@ -42,6 +42,7 @@ int run(const std::string& source, char** words) {
   const odosplat::compute::Context device = odosplat::compute::Context::open();
   odosplat::GaussianViewOptions view;
   view.sigma = odosplat::read_sigma_model(words[1]);
+  view.rasterizer.order = odosplat::read_blend_order(words[1]);
   odosplat::GaussianView map(device, odosplat::read_map(words[1]), view);
   odosplat::OdometryOptions options;
   options.background = live;  // a camera does not wait; recorded images do, and give the same poses every time

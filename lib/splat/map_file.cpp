@@ -152,6 +152,15 @@ SigmaModel read_sigma_model(const std::string& path) {
   }
 }
 
+BlendOrder read_blend_order(const std::string& path) {
+  const std::vector<std::string> notes = header_notes(path);
+  try {
+    return blend_order_from_lines(notes);
+  } catch (const InputError& e) {
+    throw InputError(path, "header", e.what());
+  }
+}
+
 std::vector<SE3> read_map_places(const std::string& path) {
   const std::vector<std::string> notes = header_notes(path);
   try {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "odosplat/splat/blend_order.hpp"
 #include "odosplat/splat/gaussians.hpp"
 #include "odosplat/splat/map_places.hpp"
 #include "odosplat/splat/sigma_model.hpp"
@@ -30,6 +31,11 @@ bool is_map_file(const std::string& path);
 /// How sure the map's depth is, from the header's comments "sigma_..." that training writes (SigmaModel::to_lines); the
 /// defaults where there are none (maps trained elsewhere, other formats). InputError if they are no numbers.
 SigmaModel read_sigma_model(const std::string& path);
+
+/// What the map's Gaussians are sorted by when they are blended, from the header's comment "blend_order ..." that
+/// training writes (blend_order_line); depth where there is none (maps trained elsewhere, other formats). InputError if
+/// it is neither.
+BlendOrder read_blend_order(const std::string& path);
 
 /// Where the map's training images were taken, thinned, from the header's comments "training_view ..." (place_lines);
 /// none where there are no such comments. InputError if they are broken.

@@ -138,8 +138,9 @@ void Rasterizer::Impl::forward(const DeviceGaussians& gaussians, const Part& par
   counts.resize(context, count);
   project(groups(), n, part.select, part.gaussians, gaussians.positions, gaussians.log_scales, gaussians.rotations,
           gaussians.opacity_logits, view.pose, view.lens, view.grid, options.dilation,
-          std::int32_t{options.compensated}, std::int32_t{ray_plane}, part.tiles.sparse, part.tiles.blocks, splats,
-          boxes, depth_keys, counts);
+          std::int32_t{options.compensated}, std::int32_t{ray_plane},
+          std::int32_t{options.order == BlendOrder::distance}, part.tiles.sparse, part.tiles.blocks, splats, boxes,
+          depth_keys, counts);
   pairs.build(count, lanes, boxes, depth_keys, counts, view.grid, part.tiles);
   if (request.color) {
     kernel("shade", {"raster_common.cl", "sh.cl", "shade.cl"}, "shade", define("SH_DEGREE", sh_degree))(

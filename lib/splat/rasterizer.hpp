@@ -11,6 +11,7 @@
 #include "odosplat/compute/context.hpp"
 #include "odosplat/core/camera.hpp"
 #include "odosplat/core/se3.hpp"
+#include "odosplat/splat/blend_order.hpp"
 #include "odosplat/splat/device_gaussians.hpp"
 #include "odosplat/splat/sigma_model.hpp"
 
@@ -43,6 +44,7 @@ struct RasterizerOptions {
   bool compensated =
       false;  // opacity times sqrt(det before / det after dilation), as in Mip-Splatting (Yu et al. 2024)
   DepthKind depth_kind = DepthKind::automatic;
+  BlendOrder order = BlendOrder::depth;
   Shell shell = Shell::automatic;
 
   void check() const;

@@ -90,6 +90,7 @@ std::vector<std::string> TrainerOptions::describe() const {
   add("color_term", loss.color_term == ColorTerm::l1 ? "l1" : "squared_l2");
   add("dilation", rasterizer.dilation);
   add("compensated", rasterizer.compensated ? 1 : 0);
+  lines.push_back(blend_order_line(rasterizer.order));
   return lines;
 }
 
@@ -121,6 +122,7 @@ TrainerOptions TrainerOptions::preset(const std::string& name, int views) {
   options.final_share = 1.0;
   options.keep_thickness = false;
   options.largest_growth = 0.0;
+  options.rasterizer.order = BlendOrder::depth;
   options.depth.weight = 0.0;
   options.surface = {0.0, 0.0, 0.0};
   options.exposure.rate = 0.0;

@@ -52,7 +52,7 @@ struct TrainerOptions {
   std::size_t depth_cache_mb = 512;  // most memory for target depth; beyond, it is rendered again in every round
 
   AdamOptions adam;
-  RasterizerOptions rasterizer;
+  RasterizerOptions rasterizer{.order = BlendOrder::distance};
 
   /// views: the images that there are; many get more iterations, 0: as if they were few.
   /// "default": depth is kept while colours are learnt. "paper": the public recipe of the paper's code (rates of

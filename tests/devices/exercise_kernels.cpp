@@ -100,7 +100,8 @@ void Exercise::sorts() {
   program.kernel("project")(compute::Range::linear(count, ITEM_GROUP), static_cast<std::int32_t>(count),
                             std::int32_t{0}, none, gaussians.positions, gaussians.log_scales, gaussians.rotations,
                             gaussians.opacity_logits, view.pose, view.lens, view.grid, 0.3F, std::int32_t{0},
-                            std::int32_t{1}, all.sparse, all.blocks, splats, boxes, depth_keys, counts);
+                            std::int32_t{1}, std::int32_t{0}, all.sparse, all.blocks, splats, boxes, depth_keys,
+                            counts);
   std::vector<std::uint32_t> lists[2], slots[2];
   for (const bool long_chunks : {false, true}) {
     RasterPairs pairs(context_, program, long_chunks);

@@ -125,11 +125,12 @@ const compute::Context& test_context() {
   return context;
 }
 
-Rasterizer make_rasterizer(Shell shell, bool compensated, DepthKind kind) {
+Rasterizer make_rasterizer(Shell shell, bool compensated, DepthKind kind, BlendOrder order) {
   RasterizerOptions options;
   options.shell = shell;
   options.compensated = compensated;
   options.depth_kind = kind;
+  options.order = order;
   return Rasterizer(test_context(), options);
 }
 

@@ -46,7 +46,8 @@ HostImages render(Rasterizer& rasterizer, const compute::Context& context, const
 
 /// The one device of the tests.
 const compute::Context& test_context();
-Rasterizer make_rasterizer(Shell shell, bool compensated = false, DepthKind kind = DepthKind::automatic);
+Rasterizer make_rasterizer(Shell shell, bool compensated = false, DepthKind kind = DepthKind::automatic,
+                           BlendOrder order = BlendOrder::depth);
 
 /// Pixels of b that differ from a by more than tolerance (absolute), among those whose margin is above `band`.
 std::size_t count_different(const std::vector<double>& a, const std::vector<float>& b,

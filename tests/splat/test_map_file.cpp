@@ -100,6 +100,22 @@ TEST_F(MapFile, BrokenViewsAreNamed) {
   }
 }
 
+TEST_F(MapFile, RemembersItsBlendOrder) {
+  for (const BlendOrder order : {BlendOrder::depth, BlendOrder::distance}) {
+    write_map(path("map.ply"), random_gaussians(3, 0), {"seed 42", blend_order_line(order)});
+    EXPECT_EQ(read_blend_order(path("map.ply")), order);
+  }
+  write_map(path("plain.ply"), random_gaussians(3, 0));
+  EXPECT_EQ(read_blend_order(path("plain.ply")), BlendOrder::depth);
+  write_map(path("map.ply"), random_gaussians(1, 0), {"blend_order size"});
+  try {
+    read_blend_order(path("map.ply"));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("map.ply: header: blend_order: must be depth or distance, is \"size\""));
+  }
+}
+
 TEST_F(MapFile, PlacesAreThinned) {
   std::vector<SE3> views;
   for (int k = 0; k < 100; ++k) views.emplace_back(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.01 * k, 0.0, 0.0));

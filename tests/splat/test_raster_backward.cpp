@@ -20,6 +20,7 @@ struct Case {
   DepthMode mode = DepthMode::expected;
   DepthKind kind = DepthKind::automatic;
   bool compensated = false;
+  BlendOrder order = BlendOrder::depth;
   bool color = true, depth = true, alpha = true;
 };
 
@@ -81,7 +82,7 @@ double difference(const std::vector<double>& truth, const std::vector<float>& fo
 }
 
 void expect_equal(Shell shell, const Case& c, double tolerance) {
-  Rasterizer rasterizer = make_rasterizer(shell, c.compensated, c.kind);
+  Rasterizer rasterizer = make_rasterizer(shell, c.compensated, c.kind, c.order);
   RenderRequest request;
   request.color = c.color;
   request.depth_mode = c.mode;
@@ -130,6 +131,12 @@ TEST_P(RasterBackward, EqualsTwinInAllDepthModes) {
       expect_equal(GetParam(), c, 1e-3);
     }
   }
+}
+
+TEST_P(RasterBackward, EqualsTwinSortedByDistance) {
+  Case c{overlapping_scene(150, 2, 19)};
+  c.order = BlendOrder::distance;
+  expect_equal(GetParam(), c, 1e-3);
 }
 
 TEST_P(RasterBackward, EqualsTwinForEachImageAlone) {

@@ -25,8 +25,9 @@ double share_in_band(const std::vector<double>& margin) {
 class RasterForward : public testing::TestWithParam<Shell> {};
 
 TEST_P(RasterForward, EqualsTwinOnAllScenes) {
-  for (const bool compensated : {false, true}) {
-    Rasterizer rasterizer = make_rasterizer(GetParam(), compensated);
+  for (const auto& [compensated, order] :
+       {std::pair{false, BlendOrder::depth}, {true, BlendOrder::depth}, {false, BlendOrder::distance}}) {
+    Rasterizer rasterizer = make_rasterizer(GetParam(), compensated, DepthKind::automatic, order);
     for (const RasterScene& scene : all_scenes()) {
       for (const DepthMode mode : {DepthMode::expected, DepthMode::median, DepthMode::blended, DepthMode::surface}) {
         SCOPED_TRACE(scene.name + " mode " + std::to_string(static_cast<int>(mode)));
@@ -135,6 +136,34 @@ TEST_P(RasterForward, RoundGaussianOnPixelCentreIsSymmetricAboutIt) {
   }
   EXPECT_EQ(images.alpha[0], 0.0f);
   EXPECT_EQ(images.depth[0], 0.0f);
+}
+
+// White ahead, black beside it: the black one is farther from the camera, but nearer along its axis until the camera
+// turns towards it.
+TEST_P(RasterForward, WhatHidesWhatStaysByDistanceWhenTheCameraTurns) {
+  RasterScene scene{"turned", {}, {33, 33, 20.0, 20.0, 16.0, 16.0}, SE3()};
+  Gaussians& g = scene.gaussians;
+  g.resize(2);
+  g.positions = {0.0F, 0.0F, 2.0F, 1.4F, 0.0F, 1.9F};
+  g.log_scales.assign(6, 0.0F);
+  g.rotations = {1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F};
+  g.opacity_logits = {6.0F, 6.0F};
+  g.sh = {1.7F, 1.7F, 1.7F, -1.7F, -1.7F, -1.7F};
+  // Brightness on the ray half way between the two.
+  const Eigen::Vector3d ray = Eigen::Vector3d(0.0, 0.0, 2.0).normalized() + Eigen::Vector3d(1.4, 0.0, 1.9).normalized();
+  const auto brightness = [&](BlendOrder order, double turn) {
+    Rasterizer rasterizer = make_rasterizer(GetParam(), false, DepthKind::automatic, order);
+    scene.T_world_camera = SE3(so3_exp({0.0, turn, 0.0}), Eigen::Vector3d::Zero());
+    RenderRequest request;
+    request.color = true;
+    const HostImages images = render(rasterizer, test_context(), scene, request);
+    const Eigen::Vector2d uv = scene.camera.project(scene.T_world_camera.inverse() * ray);
+    return images.color[static_cast<std::size_t>(std::lround(uv.y()) * scene.camera.width + std::lround(uv.x()))];
+  };
+  for (const double turn : {-0.2, 0.0, 0.3}) {
+    EXPECT_GT(brightness(BlendOrder::distance, turn), 0.5F) << turn;
+    EXPECT_EQ(brightness(BlendOrder::depth, turn) > 0.5F, turn > 0.1) << turn;
+  }
 }
 
 // Flat discs of 12 mm every 12 mm on a plane tilted by 60 degrees, seen with f = 480 from 2.5 m.

@@ -35,9 +35,9 @@ Sample sample_at(const Splat& s, double x, double y) {
 std::vector<std::size_t> near_to_far(const std::vector<Splat>& splats) {
   std::vector<std::size_t> order(splats.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  // The device sorts depths in float32: equal ones keep the order of the Gaussians.
+  // The device sorts in float32: equal ones keep the order of the Gaussians.
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return static_cast<float>(splats[a].value[6]) < static_cast<float>(splats[b].value[6]);
+    return static_cast<float>(splats[a].far) < static_cast<float>(splats[b].far);
   });
   return order;
 }

@@ -197,6 +197,7 @@ Splat project_one(const Scene& scene, std::size_t g, const Camera& camera, const
                                               color[0],
                                               color[1],
                                               color[2]};
+  splat.far = options.order == BlendOrder::distance ? length.value : z.value;
   splat.drawn = true;
   for (std::size_t i = 0; i < splat_values; ++i) {
     splat.value[i] = values[i].value;

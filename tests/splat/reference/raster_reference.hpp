@@ -33,6 +33,7 @@ constexpr std::size_t splat_values = 12;
 
 struct Splat {
   bool drawn = false;
+  double far = 0.0;  // what it is sorted by, smallest first
   std::array<double, splat_values> value{};
   /// d value[i] / d input[j].
   std::array<std::array<double, projection_inputs>, splat_values> jacobian{};

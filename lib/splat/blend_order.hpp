@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace odosplat {
+
+/// By what Gaussians are sorted before they are blended, and so which of two that overlap hides the other. Colours are
+/// learnt for one order and are speckled in another.
+enum class BlendOrder {
+  depth,    // of the centre along the optical axis (Kerbl et al. 2023): maps of other programs are made for it
+  distance  // of the centre from the camera: stays when the camera turns in place, where depth makes surfaces pop
+};
+
+/// "blend_order depth" or "blend_order distance": a line of a map's header.
+std::string blend_order_line(BlendOrder order);
+/// Other lines are passed over; depth where none says. InputError for a blend_order that is neither.
+BlendOrder blend_order_from_lines(const std::vector<std::string>& lines);
+
+}  // namespace odosplat
