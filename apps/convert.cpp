@@ -30,7 +30,7 @@ std::string extension_of(const std::string& path) {
 
 void convert_map(const ConvertFlags& flags) {
   const Gaussians gaussians = read_map(flags.in);
-  write_map(flags.out, gaussians);
+  write_map(flags.out, gaussians, read_map_notes(flags.in));
   std::printf("%s: %zu Gaussians\n", flags.out.c_str(), gaussians.size());
 }
 

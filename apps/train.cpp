@@ -62,6 +62,8 @@ TrainerOptions trainer_options(const TrainJob& job, int views) {
   if (job.exposure == "on") options.exposure.rate = 1e-3;
   if (job.exposure == "off") options.exposure.rate = 0.0;
   if (job.depth_weight >= 0.0) options.depth.weight = job.depth_weight;
+  if (std::filesystem::path(job.out).extension() == ".splat") options.rasterizer.order = BlendOrder::depth;
+  if (!job.blend_order.empty()) options.rasterizer.order = blend_order(job.blend_order);
   return options;
 }
 
@@ -217,6 +219,11 @@ void add_train(CLI::App& app, Common& common) {
                       "weight of the cloud's depth beside the images (default: the preset's)");
   command->add_option("--sh-degree", job->sh_degree,
                       "degree of the colours' spherical harmonics, 0..3 (default: the preset's)");
+  command
+      ->add_option("--blend-order", job->blend_order,
+                   "what Gaussians are sorted by when they are blended: distance from the camera, which makes better "
+                   "maps, or depth, which other programs expect (default: the preset's, depth for a .splat)")
+      ->check(CLI::IsMember({"", "distance", "depth"}));
   command
       ->add_option("--checkpoint-every", job->checkpoint_every,
                    "iterations between checkpoints (OUT.checkpoint, removed at the end), 0 = only on Ctrl-C")

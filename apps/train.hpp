@@ -27,6 +27,7 @@ struct TrainJob {
   std::size_t budget = 0;      // Gaussians, 0: one a point
   std::string densify;         // empty: the preset's
   std::string exposure;        // on, off; empty: the preset's
+  std::string blend_order;     // empty: the preset's; depth for a .splat, which cannot say otherwise
   int sh_degree = -1;          // < 0: the preset's
   double depth_weight = -1.0;  // < 0: the preset's
   int checkpoint_every = 500;  // iterations, 0: never

@@ -14,6 +14,9 @@ enum class BlendOrder {
   distance  // of the centre from the camera: stays when the camera turns in place, where depth makes surfaces pop
 };
 
+/// Of "depth" or "distance"; InputError else.
+BlendOrder blend_order(const std::string& word);
+
 /// "blend_order depth" or "blend_order distance": a line of a map's header.
 std::string blend_order_line(BlendOrder order);
 /// Other lines are passed over; depth where none says. InputError for a blend_order that is neither.

@@ -25,6 +25,9 @@ namespace odosplat {
 namespace {
 
 const std::string element_name = "vertex";
+const std::vector<std::string> format_notes = {
+    "odosplat map, format 1",
+    "camera: x right, y down, z forward; pixel (0,0) is the centre of the top-left pixel; metres"};
 
 /// One property of the file and where its values live: array[i * stride + offset].
 struct Field {
@@ -96,7 +99,10 @@ bool is_splat(const std::string& path) {
   return extension == ".splat";
 }
 
-void write_splat(const std::string& path, const Gaussians& gaussians) {
+void write_splat(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
+  if (blend_order_from_lines(notes) == BlendOrder::distance) {
+    log_warning(path + ": .splat cannot say that these Gaussians are sorted by distance (train --blend-order depth)");
+  }
   if (gaussians.sh_degree > 0) {
     log_warning(path + ": .splat has no place for the colour's change with direction: harmonics of degree 1 to " +
                 std::to_string(gaussians.sh_degree) + " are left out");
@@ -143,6 +149,14 @@ Gaussians parse_map(const std::string& name, const std::string& bytes) {
   return is_splat(name) ? parse_splat(name, bytes) : gaussians_from_ply(parse_ply(name, bytes));
 }
 
+std::vector<std::string> read_map_notes(const std::string& path) {
+  std::vector<std::string> notes = header_notes(path);
+  std::erase_if(notes, [](const std::string& note) {
+    return std::find(format_notes.begin(), format_notes.end(), note) != format_notes.end();
+  });
+  return notes;
+}
+
 SigmaModel read_sigma_model(const std::string& path) {
   const std::vector<std::string> notes = header_notes(path);
   try {
@@ -174,13 +188,12 @@ void write_map(const std::string& path, const Gaussians& gaussians, const std::v
   gaussians.check();
   if (gaussians.empty()) throw InputError(path, "there are no Gaussians to write");
   if (is_splat(path)) {
-    write_splat(path, gaussians);
+    write_splat(path, gaussians, notes);
     return;
   }
   Ply ply;
   ply.file = path;
-  ply.comments = {"odosplat map, format 1",
-                  "camera: x right, y down, z forward; pixel (0,0) is the centre of the top-left pixel; metres"};
+  ply.comments = format_notes;
   ply.comments.insert(ply.comments.end(), notes.begin(), notes.end());
 
   PlyElement vertex;

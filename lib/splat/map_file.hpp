@@ -28,6 +28,9 @@ Gaussians parse_map(const std::string& name, const std::string& bytes);
 /// if it cannot be read; InputError for a PLY whose header is broken.
 bool is_map_file(const std::string& path);
 
+/// The lines of `notes` that write_map was given, or the comments of another program's PLY; none of other formats.
+std::vector<std::string> read_map_notes(const std::string& path);
+
 /// How sure the map's depth is, from the header's comments "sigma_..." that training writes (SigmaModel::to_lines); the
 /// defaults where there are none (maps trained elsewhere, other formats). InputError if they are no numbers.
 SigmaModel read_sigma_model(const std::string& path);

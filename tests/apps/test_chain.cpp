@@ -30,6 +30,12 @@ int lines_of(const fs::path& file) {
   return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
 }
 
+std::string without_lines(std::string text, const std::string& start) {
+  for (std::size_t at = 0; (at = text.find("\n" + start)) != std::string::npos;)
+    text.erase(at, text.find('\n', at + 1) - at);
+  return text;
+}
+
 class Chain : public testing::Test {
  protected:
   static constexpr int frames = 40;
@@ -132,11 +138,21 @@ TEST_F(Chain, StartsAnywhere) {
   EXPECT_EQ(nlohmann::json::parse(read_text(run + "/report.json"))["relocalisations"], 1);
   // Poses for a map that does not remember its own.
   const std::string foreign = scratch_ / "foreign.ply";
-  must_run({"convert", map_, foreign});
+  write_text(foreign, without_lines(read_text(map_), "comment training_view"));
   EXPECT_THAT(read_text(foreign), testing::Not(HasSubstr("training_view")));
   must_run({"track", sequence_, "--map", foreign, "--start", "auto", "--places", sequence_ + "/groundtruth.txt",
             "--out", scratch_ / "foreign"});
   EXPECT_LT(ate(scratch_ / "foreign"), 0.01);
+}
+
+TEST_F(Chain, ConvertKeepsWhatAMapSaysOfItself) {
+  const std::string same = scratch_ / "same.ply";
+  must_run({"convert", map_, same});
+  EXPECT_EQ(read_text(same), read_text(map_));
+  EXPECT_THAT(must_run({"convert", map_, scratch_ / "small.splat"}).err, HasSubstr("sorted by distance"));
+  const std::string plain = scratch_ / "plain.ply";
+  must_run({"convert", scratch_ / "small.splat", plain});
+  EXPECT_THAT(read_text(plain), testing::Not(HasSubstr("blend_order")));
 }
 
 TEST_F(Chain, LooksUpSingleImages) {
