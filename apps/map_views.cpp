@@ -122,10 +122,8 @@ OpenedView open_view(const Common& common, const std::string& method, const MapF
   switch (preset.view) {
     case ViewKind::gaussians: {
       const Gaussians gaussians = without_half(read_map(needed(method, "--map", flags.map)), flags.without_half);
-      GaussianViewOptions options;
+      GaussianViewOptions options = view_options(flags.map);
       options.depth_mode = flags.depth.empty() ? preset.depth_mode : depth_mode(flags.depth);
-      options.sigma = read_sigma_model(flags.map);
-      options.rasterizer.order = read_blend_order(flags.map);
       opened.device = open_device(common);
       opened.view = std::make_unique<GaussianView>(*opened.device, gaussians, options);
       break;

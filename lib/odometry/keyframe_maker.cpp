@@ -32,6 +32,17 @@ bool is_good(const Alignment& a, const AnchorOptions& options, double max_log_ga
          a.rmse <= options.max_rmse && std::abs(a.brightness.a) <= max_log_gain;
 }
 
+void trust_depth(MadeKeyframe& made, const AgreementGrid& agreement) {
+  const auto trust = [&](double u, double v) { return std::pow(agreement.at(u, v), 2); };
+  for (std::size_t level = 0; level < made.reference.levels.size(); ++level) {
+    const double scale = std::ldexp(1.0, static_cast<int>(level));
+    for (ReferencePoint& point : made.reference.levels[level]) {
+      point.weight *= static_cast<float>(trust((point.u + 0.5) * scale - 0.5, (point.v + 0.5) * scale - 0.5));
+    }
+  }
+  for (WindowPoint& point : made.keyframe->points) point.prior_information *= trust(point.u, point.v);
+}
+
 }  // namespace
 
 void AnchorOptions::check() const {
@@ -47,6 +58,7 @@ void AnchorOptions::check() const {
   require(far_off_correlation >= -1.0 && far_off_correlation <= 1.0, "anchor.far_off_correlation", "in [-1, 1]");
   tone.check();
   agreement.check();
+  depth_agreement.check();
   require(reset_flow >= render_again_flow, "anchor.reset_flow", "at least render_again_flow");
 }
 
@@ -122,7 +134,8 @@ MadeKeyframe KeyframeMaker::make(const EvenFrame& image, std::span<const Gradien
   made.keyframe->T_world_camera = T_world_camera;
   made.keyframe->brightness = brightness;
   made.keyframe->gradient = gradients.front();
-  if (made.in_map && made.verifiable) add_anchor(made, image, view, tracker, context);
+  std::optional<AgreementGrid> depth_agreement;
+  if (made.in_map && made.verifiable) depth_agreement = add_anchor(made, image, view, tracker, context);
   const bool map_believed = made.in_map && (!context.distrust_map || made.anchored || !made.verifiable);
   if (!map_believed) {
     made.in_map = false;
@@ -133,6 +146,7 @@ MadeKeyframe KeyframeMaker::make(const EvenFrame& image, std::span<const Gradien
     return made;
   }
   add_points(made, pyramid.cameras.front(), gradients, map_believed ? view : ViewImages(), context.first);
+  if (depth_agreement) trust_depth(made, *depth_agreement);
   return made;
 }
 
@@ -170,20 +184,21 @@ KeyframeMaker::RenderedReference KeyframeMaker::rendered_reference(const Camera&
   return out;
 }
 
-void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const ViewImages& view,
-                               const Tracker& tracker, const KeyframeContext& context) {
+std::optional<AgreementGrid> KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image,
+                                                       const ViewImages& view, const Tracker& tracker,
+                                                       const KeyframeContext& context) {
   const FramePyramid& pyramid = *image.even;
   const AnchorOptions& options = options_.anchor;
   Keyframe& keyframe = *made.keyframe;
   const GrayImage gray = to_gray(view.color);
   RenderedReference rendered = rendered_reference(pyramid.cameras.front(), gray, view);
-  if (rendered.reference.empty()) return;
+  if (rendered.reference.empty()) return {};
   Alignment alignment = find_in_view(rendered.reference, pyramid, tracker, options, context);
   EvenFrame evened = image;
   const bool changed = alignment.finished && even_rows(tracker, rendered.reference, evened, alignment);
   const double max_log_gain = tracker.options().max_log_gain;
   made.anchor = alignment;
-  if (!is_good(alignment, options, max_log_gain)) return;
+  if (!is_good(alignment, options, max_log_gain)) return {};
   if (const auto tone = estimate_tone(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness,
                                       options.tone)) {
     RenderedReference toned = rendered_reference(pyramid.cameras.front(), apply_tone(gray, *tone), view);
@@ -216,6 +231,8 @@ void KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image, const
   made.T_world_camera_map = anchor.T_world_view * alignment.T_target_host.inverse();
   made.map_flow = keyframe_score(rendered.reference, alignment, 0.0, {}).full_flow;
   made.anchored = !anchor.points.empty();
+  return local_agreement(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness,
+                         options.depth_agreement);
 }
 
 }  // namespace odosplat

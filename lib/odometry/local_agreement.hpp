@@ -12,7 +12,7 @@ namespace odosplat {
 
 struct AgreementOptions {
   int columns = 20;             // of square blocks over the image's width
-  double noise = 4.0 / 255;     // [grey] root mean square residual of a block up to which its points weigh in full
+  double noise = 1.5 / 255;     // [grey] root mean square residual of a block up to which its points weigh in full
   double outlier = 40.0 / 255;  // [grey] residuals count as at most this
   double prior = 4.0;           // points with that noise that every block is given
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/splat/map_file.hpp"
 
 namespace odosplat {
 
@@ -23,6 +24,13 @@ void GaussianViewOptions::check() const {
   require(min_alpha >= 0.0F && min_alpha <= 1.0F, "min_alpha", "in 0..1");
   sigma.check();
   rasterizer.check();
+}
+
+GaussianViewOptions view_options(const std::string& map_file) {
+  GaussianViewOptions options;
+  options.sigma = read_sigma_model(map_file);
+  options.rasterizer.order = read_blend_order(map_file);
+  return options;
 }
 
 DepthMode depth_mode(const std::string& name) {

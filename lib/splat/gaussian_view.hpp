@@ -22,6 +22,10 @@ struct GaussianViewOptions {
   void check() const;
 };
 
+/// Defaults, with what the map's file says of itself: how sure its depth is, what its Gaussians are sorted by. Throws
+/// what read_sigma_model and read_blend_order (map_file.hpp) throw.
+GaussianViewOptions view_options(const std::string& map_file);
+
 /// "expected", "median", "blended" or "surface"; InputError else.
 DepthMode depth_mode(const std::string& name);
 

@@ -13,6 +13,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
+#include "odosplat/splat/gaussian_view.hpp"
 #include "odosplat/splat/map_file.hpp"
 
 namespace odosplat {
@@ -104,6 +105,8 @@ TEST_F(MapFile, RemembersItsBlendOrder) {
   for (const BlendOrder order : {BlendOrder::depth, BlendOrder::distance}) {
     write_map(path("map.ply"), random_gaussians(3, 0), {"seed 42", blend_order_line(order)});
     EXPECT_EQ(read_blend_order(path("map.ply")), order);
+    EXPECT_EQ(view_options(path("map.ply")).rasterizer.order, order);
+    EXPECT_EQ(read_map_notes(path("map.ply")), (std::vector<std::string>{"seed 42", blend_order_line(order)}));
   }
   write_map(path("plain.ply"), random_gaussians(3, 0));
   EXPECT_EQ(read_blend_order(path("plain.ply")), BlendOrder::depth);
