@@ -24,6 +24,9 @@ class WindowOptimizerTest : public testing::Test {
     options.window_points.points = points;
     options.window_points.depth_use = use;
     options.anchor.enabled = anchored;
+    // What the optimiser makes of a weight is asked, not what weight a keyframe's maker would give: it has seen the
+    // images and takes weight off a view that disagrees.
+    options.anchor.strength = 4.0;
     // The map is the room itself: its edges are as good as an image's.
     options.anchor.gradient_weight = options.window_points.gradient_weight;
     options.smoothing = 0.0;
