@@ -62,7 +62,7 @@ TrainerOptions trainer_options(const TrainJob& job, int views) {
   if (job.exposure == "on") options.exposure.rate = 1e-3;
   if (job.exposure == "off") options.exposure.rate = 0.0;
   if (job.depth_weight >= 0.0) options.depth.weight = job.depth_weight;
-  if (std::filesystem::path(job.out).extension() == ".splat") options.rasterizer.order = BlendOrder::depth;
+  if (is_splat_path(job.out)) options.rasterizer.order = BlendOrder::depth;
   if (!job.blend_order.empty()) options.rasterizer.order = blend_order(job.blend_order);
   return options;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   One item GW Gaussians: their splats, their depths or distances as sort keys (~0: not drawn), the numbers of tiles they reach, and
-   their ellipses for emit_pairs (tiles.cl comes first). selected, where `select`: which Gaussians, n of them; all that is
-   written is in its order. */
+   One item GW Gaussians: their splats, their depths or distances as sort keys (~0: not drawn), the numbers of tiles they
+   reach, and their ellipses for emit_pairs (tiles.cl comes first). selected, where `select`: which Gaussians, n of them;
+   all that is written is in its order. */
 
 /* Half of log2(e): exp(-q / 2) = 2^(-HALF_LOG2_E q). */
 #define HALF_LOG2_E 0.72134752f

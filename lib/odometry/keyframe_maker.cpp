@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/brightness_splines.hpp"
 #include "odosplat/odometry/keyframe_policy.hpp"
 #include "odosplat/odometry/motion_model.hpp"
 
@@ -217,8 +218,9 @@ std::optional<AgreementGrid> KeyframeMaker::add_anchor(MadeKeyframe& made, const
       make_window_points(pyramid.cameras.front(), rendered.gradients, view, anchor.T_world_view,
                          static_cast<int>(made.point_share * point_options.anchor_points),
                          anchor_selectors_.of(rendered.reference.bare), point_options, options_.plane, DepthUse::fixed);
-  const AgreementGrid agreement = local_agreement(rendered.reference, *evened.even, alignment.T_target_host,
-                                                  alignment.brightness, options.agreement);
+  const std::vector<BrightnessSample> samples =
+      brightness_samples(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness, 0);
+  const AgreementGrid agreement = local_agreement(pyramid.cameras.front(), samples, options.agreement);
   for (WindowPoint& point : anchor.points) {
     for (float& weight : point.weight) weight *= static_cast<float>(agreement.at(point.u, point.v));
   }
@@ -231,8 +233,7 @@ std::optional<AgreementGrid> KeyframeMaker::add_anchor(MadeKeyframe& made, const
   made.T_world_camera_map = anchor.T_world_view * alignment.T_target_host.inverse();
   made.map_flow = keyframe_score(rendered.reference, alignment, 0.0, {}).full_flow;
   made.anchored = !anchor.points.empty();
-  return local_agreement(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness,
-                         options.depth_agreement);
+  return local_agreement(pyramid.cameras.front(), samples, options.depth_agreement);
 }
 
 }  // namespace odosplat

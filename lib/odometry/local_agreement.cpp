@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "odosplat/core/error.hpp"
-#include "odosplat/odometry/brightness_splines.hpp"
 
 namespace odosplat {
 namespace {
@@ -28,10 +27,9 @@ void AgreementOptions::check() const {
 
 double AgreementGrid::at(double u, double v) const { return weight[block_at(*this, u, v)]; }
 
-AgreementGrid local_agreement(const TrackingReference& reference, const FramePyramid& target, const SE3& T_target_host,
-                              const Brightness& brightness, const AgreementOptions& options) {
+AgreementGrid local_agreement(const Camera& camera, const std::vector<BrightnessSample>& samples,
+                              const AgreementOptions& options) {
   AgreementGrid grid;
-  const Camera& camera = reference.cameras.front();
   grid.block = static_cast<double>(camera.width) / options.columns;
   grid.columns = options.columns;
   grid.rows = static_cast<int>(std::ceil(camera.height / grid.block));
@@ -39,7 +37,7 @@ AgreementGrid local_agreement(const TrackingReference& reference, const FramePyr
   const double noise2 = options.noise * options.noise;
   std::vector<double> squares(blocks, options.prior * noise2);
   std::vector<double> points(blocks, options.prior);
-  for (const BrightnessSample& sample : brightness_samples(reference, target, T_target_host, brightness, 0)) {
+  for (const BrightnessSample& sample : samples) {
     const std::size_t b = block_at(grid, sample.u, sample.v);
     const double r = std::min(std::abs(sample.residual), options.outlier);
     squares[b] += r * r;

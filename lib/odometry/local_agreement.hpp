@@ -4,9 +4,8 @@
 
 #include <vector>
 
-#include "odosplat/core/se3.hpp"
-#include "odosplat/odometry/frame.hpp"
-#include "odosplat/odometry/tracking_reference.hpp"
+#include "odosplat/core/camera.hpp"
+#include "odosplat/odometry/brightness_splines.hpp"
 
 namespace odosplat {
 
@@ -31,9 +30,9 @@ struct AgreementGrid {
 };
 
 /// How far a reference and the image that it was aligned with agree, place by place: inverse variance of the residuals
-/// of a block's points. A map errs by regions: relief finer than its cloud, surfaces that few images saw. Pure
-/// function.
-AgreementGrid local_agreement(const TrackingReference& reference, const FramePyramid& target, const SE3& T_target_host,
-                              const Brightness& brightness, const AgreementOptions& options);
+/// of a block's points. A map errs by regions: relief finer than its cloud, surfaces that few images saw. camera: the
+/// reference's, full size; samples: of its level 0. Pure function.
+AgreementGrid local_agreement(const Camera& camera, const std::vector<BrightnessSample>& samples,
+                              const AgreementOptions& options);
 
 }  // namespace odosplat

@@ -92,13 +92,6 @@ Gaussians gaussians_from_ply(const Ply& ply) {
   return gaussians;
 }
 
-bool is_splat(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".splat";
-}
-
 void write_splat(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
   if (blend_order_from_lines(notes) == BlendOrder::distance) {
     log_warning(path + ": .splat cannot say that these Gaussians are sorted by distance (train --blend-order depth)");
@@ -126,8 +119,15 @@ std::vector<std::string> header_notes(const std::string& path) {
 
 }  // namespace
 
+bool is_splat_path(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".splat";
+}
+
 bool is_map_file(const std::string& path) {
-  if (is_splat(path)) return true;
+  if (is_splat_path(path)) return true;
   std::ifstream in(path, std::ios::binary);
   std::string magic(3, '\0');
   in.read(magic.data(), 3);
@@ -142,11 +142,11 @@ bool is_map_file(const std::string& path) {
 }
 
 Gaussians read_map(const std::string& path) {
-  return is_splat(path) ? parse_splat(path, read_file(path)) : gaussians_from_ply(read_ply(path));
+  return is_splat_path(path) ? parse_splat(path, read_file(path)) : gaussians_from_ply(read_ply(path));
 }
 
 Gaussians parse_map(const std::string& name, const std::string& bytes) {
-  return is_splat(name) ? parse_splat(name, bytes) : gaussians_from_ply(parse_ply(name, bytes));
+  return is_splat_path(name) ? parse_splat(name, bytes) : gaussians_from_ply(parse_ply(name, bytes));
 }
 
 std::vector<std::string> read_map_notes(const std::string& path) {
@@ -187,7 +187,7 @@ std::vector<SE3> read_map_places(const std::string& path) {
 void write_map(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
   gaussians.check();
   if (gaussians.empty()) throw InputError(path, "there are no Gaussians to write");
-  if (is_splat(path)) {
+  if (is_splat_path(path)) {
     write_splat(path, gaussians, notes);
     return;
   }

@@ -24,6 +24,9 @@ Gaussians read_map(const std::string& path);
 /// The same from memory; `name` stands for the file, its extension included.
 Gaussians parse_map(const std::string& name, const std::string& bytes);
 
+/// Whether the name ends in .splat, in letters of either size.
+bool is_splat_path(const std::string& path);
+
 /// Whether the file holds Gaussians, by its name (.splat) or header (a PLY with colours f_dc_0), not its content. False
 /// if it cannot be read; InputError for a PLY whose header is broken.
 bool is_map_file(const std::string& path);

@@ -114,9 +114,7 @@ apps::MapFlags edited_map(const apps::MapFlags& flags, const MapEdit& edit, cons
     keep_unmarked(gaussians.sh, 3 * static_cast<std::size_t>(gaussians.coefficients()), gone);
     keep_unmarked(gaussians.opacity_logits, 1, gone);
     edited.map = folder + "/map.ply";
-    std::vector<std::string> notes = read_sigma_model(flags.map).to_lines();
-    notes.push_back(blend_order_line(read_blend_order(flags.map)));
-    write_map(edited.map, gaussians, notes);
+    write_map(edited.map, gaussians, read_map_notes(flags.map));
   }
   return edited;
 }

@@ -14,7 +14,7 @@ namespace {
 class LocalAgreementTest : public test::RoomPairTest {
  protected:
   AgreementGrid grid(const FramePyramid& target, const AgreementOptions& options = {.noise = 4.0 / 255}) const {
-    return local_agreement(reference_, target, T_target_host_, {}, options);
+    return local_agreement(camera_, brightness_samples(reference_, target, T_target_host_, {}, 0), options);
   }
 };
 
