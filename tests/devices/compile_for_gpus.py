@@ -96,8 +96,9 @@ def nvidia_figures(assembly, path):
 
 def compile_one(job):
     number, (name, options, text), target, work = job
-    source = os.path.join(work, f"{number}.cl")
-    result = os.path.join(work, f"{number}-{target.split()[0]}.s")
+    # A file of its own for each target: the other's compiler, at work at the same time, crashed on one being rewritten.
+    stem = os.path.join(work, f"{number}-{target.split()[0]}")
+    source, result = f"{stem}.cl", f"{stem}.s"
     with open(source, "w", encoding="utf-8") as file:
         file.write(text)
     flags, library = TARGETS[target]
