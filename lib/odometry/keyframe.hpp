@@ -44,13 +44,14 @@ inline double inverse_depth(const WindowPoint& point, const Camera& camera, cons
   return m.dot(ray) + point.offset;
 }
 
-/// The map's own view from a pose where a keyframe was believed to be: its image says what the keyframe should see from
-/// exactly there. The pose is known and fixed: nothing estimated is in it. Empty without points.
-struct MapAnchor {
+/// A view whose pose is known and fixed: the map's own from where a keyframe was believed to be, or a keyframe that was
+/// made before and held by the map. It says what the keyframe should see.
+struct Anchor {
   SE3 T_world_view;
-  Brightness brightness;  // estimated: the map's exposure against the camera's
+  Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of it, which the adjustment passes on
+  Brightness brightness;                   // estimated: the view's exposure against the camera's
   std::vector<WindowPoint> points;
-  double weight = 1.0;  // 0..1, smaller where the rendered image agrees badly with the real one
+  double weight = 1.0;  // factor of all its squared residuals
 };
 
 /// A frame that others are measured against. Data only.
@@ -66,7 +67,7 @@ struct Keyframe {
   GradientImage gradient;                  // full size
   std::vector<WindowPoint> points;
   std::vector<ImmaturePoint> immature;
-  MapAnchor anchor;
+  std::vector<Anchor> anchors;
   std::shared_ptr<const TrackingReference> reference;  // this image with the map's depth, for tracking later frames
 };
 

@@ -12,10 +12,13 @@ namespace {
 
 enum StageIndex : std::size_t { stage_render, stage_keyframe, stage_optimise, stage_trace };
 
+constexpr double recalled_flow = 0.5;  // [px] a keyframe that others move further is rendered from its new place
+
 }  // namespace
 
 void KeyframeBackendOptions::check() const {
   keyframe.check();
+  memory.check();
   window.check();
   optimizer.check();
   marginalisation.check();
@@ -29,7 +32,8 @@ KeyframeBackend::KeyframeBackend(const Camera& camera, MapView& map, const Track
       tracker_(tracker),
       options_(options),
       maker_(options.keyframe),
-      optimizer_(options.optimizer) {
+      optimizer_(options.optimizer),
+      memory_(camera, options.memory) {
   options_.check();
 }
 
@@ -60,6 +64,47 @@ std::vector<ProjectedPoint> KeyframeBackend::points_seen_from(const SE3& T_world
   return seen;
 }
 
+MadeKeyframe KeyframeBackend::make_from(const RenderedView& view, const KeyframeRequest& request,
+                                        const KeyframeContext& context, EvenFrame& image,
+                                        std::vector<GradientImage>& gradients) {
+  const StageTimer timer(stages_[stage_keyframe]);
+  const auto make = [&] {
+    return maker_.make(image, gradients, view.images, view.T_world_camera, request.brightness, tracker_, context);
+  };
+  MadeKeyframe made = make();
+  if (!made.evened) return made;
+  image = *made.evened;
+  gradients = build_gradients(*image.even);
+  return make();
+}
+
+std::vector<Recollection> KeyframeBackend::recall(const FramePyramid& image, const SE3& T_world_camera) {
+  const StageTimer timer(stages_[stage_keyframe]);
+  return memory_.recall(image, T_world_camera, tracker_);
+}
+
+KeyframeBackend::Attempt KeyframeBackend::make_recalled(const RenderedView& view, std::vector<Recollection> recalled,
+                                                        const KeyframeRequest& request, KeyframeContext context,
+                                                        EvenFrame& image, std::vector<GradientImage>& gradients) {
+  const SE3& T_world_keyframe = recalled.front().T_world_camera;
+  context.distrust_map = false;  // it is seen from where the camera is
+  Attempt result;
+  result.made = make_from(view, request, context, image, gradients);
+  result.corrected = recalled.front().flow;
+  MadeKeyframe& made = result.made;
+  if (made.keyframe == nullptr) return result;
+  made.keyframe->T_world_camera = T_world_keyframe;
+  made.keyframe->anchors.clear();
+  made.anchored = true;
+  int links = recalled.front().links;
+  for (Recollection& recollection : recalled) {
+    links = std::min(links, recollection.links);
+    made.keyframe->anchors.push_back(std::move(recollection.anchor));
+  }
+  result.links = links + 1;
+  return result;
+}
+
 KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, EvenFrame& image,
                                                std::vector<GradientImage>& gradients) {
   const AnchorOptions& anchor = options_.keyframe.anchor;
@@ -68,7 +113,6 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, E
   context.first = window_.keyframes.empty();
   context.other_points = static_cast<int>(points_seen_from(request.T_world_camera).size());
   context.distrust_map = outside_;
-  SE3 T_world_keyframe = request.T_world_camera;
   // What was rendered ahead shows what the anchor's alignment will find, only its pose is another than the frame's: a
   // keyframe that is not anchored cannot be made from it.
   std::optional<RenderedView> ahead = std::exchange(prefetched_, std::nullopt);
@@ -77,51 +121,59 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, E
     ahead.reset();
   }
   Attempt result;
+  result.prefetched = ahead.has_value();
+  RenderedView view = ahead ? std::move(*ahead) : seen_from(map, request.T_world_camera);
+  if (anchor.enabled && request.view == nullptr && map_share(view.images) < memory_.options().map_share) {
+    std::vector<Recollection> recalled = recall(*image.even, request.T_world_camera);
+    if (!recalled.empty()) {
+      const SE3& T_world_keyframe = recalled.front().T_world_camera;
+      if (view_flow(camera_, view, T_world_keyframe) > recalled_flow) view = seen_from(map, T_world_keyframe);
+      return make_recalled(view, std::move(recalled), request, context, image, gradients);
+    }
+  }
   MadeKeyframe& made = result.made;
   double& corrected = result.corrected;
+  SE3 T_world_keyframe = view.T_world_camera;
   // Seen from where the map says the camera is, if that is elsewhere: depth and colour must belong to the pixel.
   for (int attempt = 0; attempt < 3; ++attempt) {
-    const bool prefetched = attempt == 0 && ahead.has_value();
-    result.prefetched = prefetched;
-    if (prefetched) T_world_keyframe = ahead->T_world_camera;
-    const ViewImages view = prefetched ? ahead->images : render(map, T_world_keyframe);
-    const StageTimer timer(stages_[stage_keyframe]);
-    made = maker_.make(image, gradients, view, T_world_keyframe, request.brightness, tracker_, context);
-    if (made.evened) {
-      image = *made.evened;
-      gradients = build_gradients(*image.even);
-      made = maker_.make(image, gradients, view, T_world_keyframe, request.brightness, tracker_, context);
+    if (attempt > 0) {
+      view = seen_from(map, T_world_keyframe);
+      result.prefetched = false;
     }
-    if (prefetched && !made.anchored) {
+    made = make_from(view, request, context, image, gradients);
+    if (result.prefetched && !made.anchored) {
       T_world_keyframe = request.T_world_camera;
       continue;
     }
     if (!made.anchored) break;
-    corrected =
-        std::max(corrected, prefetched ? view_flow(camera_, {made.T_world_camera_map, view}, request.T_world_camera)
-                                       : made.map_flow);
+    corrected = std::max(corrected, result.prefetched ? view_flow(camera_, {made.T_world_camera_map, view.images},
+                                                                  request.T_world_camera)
+                                                      : made.map_flow);
     T_world_keyframe = made.T_world_camera_map;
     if (made.map_flow <= anchor.render_again_flow) break;
   }
   if (outside_ && corrected > 0.0 && (!made.anchored || made.map_flow > anchor.render_again_flow)) {
     // A place that the map gives and does not confirm from there is no way back into it.
-    const StageTimer timer(stages_[stage_keyframe]);
     const double map_share = made.map_share;
-    made = maker_.make(image, gradients, {}, request.T_world_camera, request.brightness, tracker_, context);
+    made = make_from({request.T_world_camera, {}}, request, context, image, gradients);
     made.map_share = map_share;
     corrected = 0.0;
   } else if (made.anchored && made.keyframe != nullptr) {
     made.keyframe->T_world_camera = T_world_keyframe;
+    if (made.map_share >= memory_.options().map_share) result.links = 0;
   }
   return result;
 }
 
 void KeyframeBackend::come_back(const SE3& T_correction, bool far) {
   const auto held_by_map = [](const std::shared_ptr<Keyframe>& k) {
-    return !k->anchor.points.empty() ||
+    return !k->anchors.empty() ||
            std::any_of(k->points.begin(), k->points.end(), [](const WindowPoint& p) { return p.of_map; });
   };
-  if (far) std::erase_if(window_.keyframes, held_by_map);
+  if (far) {
+    for (const auto& k : window_.keyframes) memory_.forget(*k);
+    std::erase_if(window_.keyframes, held_by_map);
+  }
   for (const auto& k : window_.keyframes) {
     if (held_by_map(k)) continue;
     k->T_world_camera = T_correction * k->T_world_camera;
@@ -133,11 +185,17 @@ void KeyframeBackend::come_back(const SE3& T_correction, bool far) {
 void KeyframeBackend::make_room() {
   const int drop = keyframe_to_drop(window_, camera_, options_.window);
   if (drop < 0) return;
+  const std::shared_ptr<Keyframe> leaving = window_.keyframes[static_cast<std::size_t>(drop)];
   marginalise_keyframe(window_, static_cast<std::size_t>(drop), camera_, options_.optimizer, options_.marginalisation);
+  // Large, and of no use in memory.
+  leaving->gradient.release();
+  leaving->immature = {};
+  leaving->anchors = {};
 }
 
 KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   if (request.fresh) {
+    for (const auto& k : window_.keyframes) memory_.forget(*k);
     window_.keyframes.clear();
     window_.prior.clear();
     outside_ = false;
@@ -148,7 +206,7 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
     const StageTimer timer(stages_[stage_keyframe]);
     gradients = build_gradients(*image.even);
   }
-  auto [made, corrected, prefetched] = make(request, image, gradients);
+  auto [made, corrected, prefetched, links] = make(request, image, gradients);
   KeyframeOutcome outcome;
   outcome.map_share = made.map_share;
   outcome.map_correlation = made.anchor.correlation;
@@ -181,17 +239,16 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   add_projected_points(made.reference, gradients, points_seen_from(keyframe->T_world_camera),
                        options_.keyframe.reference);
   keyframe->reference = std::make_shared<TrackingReference>(std::move(made.reference));
+  if (links) memory_.remember(keyframe, *links);
   outcome.window = references();
   return outcome;
 }
 
-void KeyframeBackend::prefetch(const SE3& T_world_camera) {
-  prefetched_ = RenderedView{T_world_camera, render(map_, T_world_camera)};
-}
+void KeyframeBackend::prefetch(const SE3& T_world_camera) { prefetched_ = seen_from(map_, T_world_camera); }
 
-ViewImages KeyframeBackend::render(MapView& map, const SE3& T_world_camera) {
+RenderedView KeyframeBackend::seen_from(MapView& map, const SE3& T_world_camera) {
   const StageTimer timer(stages_[stage_render]);
-  return map.render(camera_, T_world_camera, {options_.keyframe.anchor.enabled, true});
+  return {T_world_camera, map.render(camera_, T_world_camera, {options_.keyframe.anchor.enabled, true})};
 }
 
 std::vector<ReferenceFrame> KeyframeBackend::references() const {

@@ -9,6 +9,7 @@
 
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/odometry/keyframe_maker.hpp"
+#include "odosplat/odometry/keyframe_memory.hpp"
 #include "odosplat/odometry/marginalisation.hpp"
 #include "odosplat/odometry/point_activation.hpp"
 #include "odosplat/odometry/reference_frame.hpp"
@@ -21,6 +22,7 @@ namespace odosplat {
 
 struct KeyframeBackendOptions {
   KeyframeMakerOptions keyframe;
+  KeyframeMemoryOptions memory;
   WindowOptions window;
   WindowOptimizerOptions optimizer;
   MarginalisationOptions marginalisation;
@@ -50,8 +52,8 @@ struct KeyframeRequest {
 
 /// What came of it.
 struct KeyframeOutcome {
-  bool made = false;  // false: too little depth there; the window is as it was
-  bool anchored = false;
+  bool made = false;        // false: too little depth there; the window is as it was
+  bool anchored = false;    // held by the map's colours, or by keyframes that these held before
   bool prefetched = false;  // made from the view that was rendered ahead
   bool in_map = false;      // the map alone gives depth enough; else the camera goes by what it has seen on its way
   double map_share = 0.0;   // share of the image where the map has depth
@@ -61,9 +63,10 @@ struct KeyframeOutcome {
 
 /// The odometry's back end: renders the map where a frame wants to become a keyframe, makes the keyframe, anchors it,
 /// and adjusts the window of keyframes. Pixels that the map does not show become points by motion: every frame between
-/// narrows their depth (trace), and keyframes outside the map live on these alone. Once the camera has been outside,
-/// the map's depth is believed again from the first keyframe on that its colours hold in place; the keyframes made
-/// outside are moved along then. Not thread safe; uses parallel_for inside.
+/// narrows their depth (trace), and keyframes outside the map live on these alone. Where the map shows little,
+/// keyframes made before hold the camera, if they are found (KeyframeMemory). Once the camera has been outside, the
+/// map's depth is believed again from the first keyframe on that its colours, or these, hold in place; the keyframes
+/// made outside are moved along then. Not thread safe; uses parallel_for inside.
 class KeyframeBackend {
  public:
   /// map and tracker must outlive this.
@@ -84,13 +87,21 @@ class KeyframeBackend {
   const std::vector<StageTime>& stages() const { return stages_; }
 
  private:
-  ViewImages render(MapView& map, const SE3& T_world_camera);
+  RenderedView seen_from(MapView& map, const SE3& T_world_camera);
   /// A keyframe as it was made last, of several renderings maybe.
   struct Attempt {
     MadeKeyframe made;
-    double corrected = 0.0;   // [px] farthest that the map has moved it from where it was tracked
-    bool prefetched = false;  // made from the view that was rendered ahead
+    double corrected = 0.0;    // [px] farthest that the map has moved it from where it was tracked
+    bool prefetched = false;   // made from the view that was rendered ahead
+    std::optional<int> links;  // to the map, if the keyframe is fit to be remembered
   };
+  /// The keyframe as this view gives it. Makes image and gradients even where the map shows that they are not.
+  MadeKeyframe make_from(const RenderedView& view, const KeyframeRequest& request, const KeyframeContext& context,
+                         EvenFrame& image, std::vector<GradientImage>& gradients);
+  std::vector<Recollection> recall(const FramePyramid& image, const SE3& T_world_camera);
+  /// A keyframe where remembered ones, at least one, put it. view: from there.
+  Attempt make_recalled(const RenderedView& view, std::vector<Recollection> recalled, const KeyframeRequest& request,
+                        KeyframeContext context, EvenFrame& image, std::vector<GradientImage>& gradients);
   /// Makes image and gradients even where the map shows that they are not.
   Attempt make(const KeyframeRequest& request, EvenFrame& image, std::vector<GradientImage>& gradients);
   void make_room();
@@ -105,6 +116,7 @@ class KeyframeBackend {
   KeyframeBackendOptions options_;
   KeyframeMaker maker_;
   WindowOptimizer optimizer_;
+  KeyframeMemory memory_;
   Window window_;
   std::optional<RenderedView> prefetched_;
   bool outside_ = false;  // the map has been left and has not been found again

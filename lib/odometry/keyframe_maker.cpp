@@ -46,6 +46,11 @@ void trust_depth(MadeKeyframe& made, const AgreementGrid& agreement) {
 
 }  // namespace
 
+double map_share(const ViewImages& view) {
+  if (view.depth.empty()) return 0.0;
+  return static_cast<double>(cv::countNonZero(view.depth)) / static_cast<double>(view.depth.total());
+}
+
 void AnchorOptions::check() const {
   require(noise > 0.0, "anchor.noise", "positive");
   require(strength > 0.0, "anchor.strength", "positive");
@@ -113,16 +118,10 @@ MadeKeyframe KeyframeMaker::make(const EvenFrame& image, std::span<const Gradien
                                  const Tracker& tracker, const KeyframeContext& context) {
   const FramePyramid& pyramid = *image.even;
   MadeKeyframe made;
-  if (!whole_view.depth.empty()) {
-    made.map_share =
-        static_cast<double>(cv::countNonZero(whole_view.depth)) / static_cast<double>(whole_view.depth.total());
-  }
+  made.map_share = map_share(whole_view);
   const ViewImages view = without_border(whole_view, made.map_share);
   // Where the map shows less, it has less to say: points are as dense as in a full image.
-  if (!view.depth.empty()) {
-    const double shown = static_cast<double>(cv::countNonZero(view.depth)) / static_cast<double>(view.depth.total());
-    made.point_share = std::min(1.0, shown / options_.full_share);
-  }
+  made.point_share = std::min(1.0, map_share(view) / options_.full_share);
   made.reference = build_reference(pyramid, gradients, view, reference_selectors_.usual, options_.reference,
                                    options_.plane, &reference_selectors_.weak);
   const auto enough = [&](int others) {
@@ -210,7 +209,7 @@ std::optional<AgreementGrid> KeyframeMaker::add_anchor(MadeKeyframe& made, const
     }
   }
   if (changed) made.evened = evened;
-  MapAnchor& anchor = keyframe.anchor;
+  Anchor anchor;
   anchor.T_world_view = keyframe.T_world_camera;
   WindowPointOptions point_options = options_.window_points;
   point_options.gradient_weight = options.gradient_weight;
@@ -233,6 +232,7 @@ std::optional<AgreementGrid> KeyframeMaker::add_anchor(MadeKeyframe& made, const
   made.T_world_camera_map = anchor.T_world_view * alignment.T_target_host.inverse();
   made.map_flow = keyframe_score(rendered.reference, alignment, 0.0, {}).full_flow;
   made.anchored = !anchor.points.empty();
+  if (made.anchored) keyframe.anchors.push_back(std::move(anchor));
   return local_agreement(pyramid.cameras.front(), samples, options.depth_agreement);
 }
 

@@ -102,6 +102,9 @@ struct MadeKeyframe {
   double map_flow = 0.0;            // [px] root mean square image motion between that and the pose rendered from
 };
 
+/// Share of the view's pixels with depth.
+double map_share(const ViewImages& view);
+
 /// Turns an image and the map's view from its pose into a keyframe: points with map depth for tracking and for the
 /// window, and the rendered view itself as anchor where it resembles the image. Holds scratch memory; not thread safe.
 class KeyframeMaker {

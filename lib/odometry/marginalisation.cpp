@@ -19,8 +19,12 @@ Window points_to_marginalise(const Window& window, std::size_t index, const Marg
     const Keyframe& from = *window.keyframes[k];
     auto keyframe = std::make_shared<Keyframe>();
     keyframe->gradient = from.gradient;
-    if (k == index) keyframe->anchor = from.anchor;
     state.offsets[k].clear();
+    if (k == index) {
+      keyframe->anchors = from.anchors;
+    } else {
+      state.anchors[k].clear();
+    }
     for (const WindowPoint& point : from.points) {
       if (point.estimated && (k != index || point.agreeing < options.min_agreeing)) continue;
       keyframe->points.push_back(point);

@@ -22,7 +22,7 @@ struct MarginalisationOptions {
 /// Takes keyframe `index` out of the window and keeps what it and its points said of the others as the window's
 /// marginal prior (Schur complement; reference: Leutenegger et al. 2015, DSO section 2.4). In it go: all residuals of
 /// the keyframe's own points, save estimated ones that too few keyframes agree with; those of the others' map points in
-/// the keyframe; its anchor; its brightness priors. Residuals in it of the others' estimated points are dropped:
+/// the keyframe; its anchors; its brightness priors. Residuals in it of the others' estimated points are dropped:
 /// eliminating these would tie all their keyframes together while they are still needed. With `enabled` false only what
 /// the window's prior already held of the others is kept.
 void marginalise_keyframe(Window& window, std::size_t index, const Camera& camera,

@@ -27,6 +27,7 @@ bool shows_nothing(const FramePyramid& pyramid) {
 void OdometryOptions::check() const {
   tracker.check();
   keyframe.check();
+  memory.check();
   policy.check();
   window.check();
   optimizer.check();
@@ -56,7 +57,8 @@ Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& op
       T_world_camera_start_(T_world_camera_start),
       front_({options.tracker, options.policy, options.accept}),
       backend_(camera, map, front_.aligner(),
-               {options.keyframe, options.window, options.optimizer, options.marginalisation, options.activation}) {
+               {options.keyframe, options.memory, options.window, options.optimizer, options.marginalisation,
+                options.activation}) {
   camera_.check();
   options_.check();
   require(T_world_camera_start.is_finite(), "start pose", "finite");

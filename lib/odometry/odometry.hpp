@@ -21,6 +21,7 @@ class Relocalizer;
 struct OdometryOptions {
   TrackerOptions tracker;
   KeyframeMakerOptions keyframe;
+  KeyframeMemoryOptions memory;
   KeyframePolicyOptions policy;
   WindowOptions window;
   WindowOptimizerOptions optimizer;
@@ -63,7 +64,7 @@ struct TrackResult {
   double map_correlation = 0.0;  // the same with the map's rendered view, of the last that was tried as keyframe
   double map_share = 0.0;        // share of the image where the map has depth, of the last that was tried as keyframe
   bool in_map = false;           // the last keyframe has its depth from the map; false: plain odometry beyond it
-  bool anchored = false;         // a keyframe that the map's colours hold in place
+  bool anchored = false;         // a keyframe that the map's colours hold in place, or keyframes that these held before
   double milliseconds = 0.0;
 };
 

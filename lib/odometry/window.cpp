@@ -46,9 +46,11 @@ void translate(Window& window, const Eigen::Vector3d& by) {
   for (const auto& keyframe : window.keyframes) {
     keyframe->T_world_camera = moved(keyframe->T_world_camera);
     if (keyframe->T_world_tracked) keyframe->T_world_tracked = moved(*keyframe->T_world_tracked);
-    keyframe->anchor.T_world_view = moved(keyframe->anchor.T_world_view);
     for (WindowPoint& point : keyframe->points) point.plane_world.D += point.plane_world.N.dot(by);
-    for (WindowPoint& point : keyframe->anchor.points) point.plane_world.D += point.plane_world.N.dot(by);
+    for (Anchor& anchor : keyframe->anchors) {
+      anchor.T_world_view = moved(anchor.T_world_view);
+      for (WindowPoint& point : anchor.points) point.plane_world.D += point.plane_world.N.dot(by);
+    }
   }
   translate(window.prior, by);
 }

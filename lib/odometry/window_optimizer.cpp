@@ -48,7 +48,7 @@ void write_back(const WindowState& state, const WindowSystem& system, Window& wi
     Keyframe& keyframe = *window.keyframes[k];
     keyframe.T_world_camera = state.poses[k].T_world_camera;
     keyframe.brightness = state.brightness[k];
-    keyframe.anchor.brightness = state.anchors[k];
+    for (std::size_t i = 0; i < keyframe.anchors.size(); ++i) keyframe.anchors[i].brightness = state.anchors[k][i];
     for (std::size_t i = 0; i < system.depths[k].points.size(); ++i) {
       WindowPoint& point = keyframe.points[system.depths[k].points[i]];
       point.offset = state.offsets[k][system.depths[k].points[i]];
@@ -85,7 +85,7 @@ WindowSummary WindowOptimizer::optimize(Window& window, const Camera& camera) co
   WindowSummary summary;
   const std::size_t n = window.keyframes.size();
   if (n == 0) return summary;
-  if (n == 1 && window.keyframes[0]->anchor.points.empty()) {
+  if (n == 1 && window.keyframes[0]->anchors.empty()) {
     // Nothing to compare it with: it is as uncertain as the gauge takes it to be.
     Keyframe& only = *window.keyframes[0];
     Vector6d variance;
@@ -140,7 +140,12 @@ WindowSummary WindowOptimizer::optimize(Window& window, const Camera& camera) co
   const Matrix6d shift = SE3(Eigen::Quaterniond::Identity(), origin).adjoint();
   for (std::size_t k = 0; k < n; ++k) {
     const Matrix6d own = covariance.block<6, 6>(static_cast<Eigen::Index>(8 * k), static_cast<Eigen::Index>(8 * k));
-    window.keyframes[k]->covariance = shift * own * shift.transpose();
+    Keyframe& keyframe = *window.keyframes[k];
+    keyframe.covariance = shift * own * shift.transpose();
+    // Views that hold it err together: their mean, not their sum's inverse.
+    for (const Anchor& anchor : keyframe.anchors) {
+      keyframe.covariance += anchor.covariance / static_cast<double>(keyframe.anchors.size());
+    }
   }
 
   summary.final_cost = system.cost;
@@ -149,10 +154,6 @@ WindowSummary WindowOptimizer::optimize(Window& window, const Camera& camera) co
     summary.outliers += pair.outliers;
   }
   summary.rmse = rmse_of(system.pairs);
-  summary.anchor_rmse = rmse_of(system.anchors);
-  const PairSystem& newest = system.anchors.back();
-  const int seen = newest.inliers + newest.outliers;
-  summary.anchor_inliers = seen > 0 ? static_cast<double>(newest.inliers) / seen : 0.0;
   return summary;
 }
 

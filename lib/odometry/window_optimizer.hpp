@@ -34,9 +34,7 @@ struct WindowSummary {
   double final_cost = 0.0;
   int residuals = 0;  // points seen in another keyframe, outliers not counted
   int outliers = 0;
-  double rmse = 0.0;            // [grey] of the keyframes' mutual residuals
-  double anchor_rmse = 0.0;     // [grey] of the residuals against rendered views, 0 if there are none
-  double anchor_inliers = 0.0;  // share of the newest keyframe's anchor points that agree; 0 without anchor
+  double rmse = 0.0;  // [grey] of the keyframes' mutual residuals
 };
 
 /// Photometric bundle adjustment of a window: poses and brightness of its keyframes, brightness of its anchors, and the

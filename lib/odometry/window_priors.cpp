@@ -47,11 +47,13 @@ void add_keyframe_priors(const WindowState& state, std::size_t k, const WindowPr
     add_pose(system, k, state.poses[k].T_world_camera, *priors.tracked[k], priors.tracked_information);
   }
   const auto brightness = static_cast<Eigen::Index>(8 * k + 6);
-  const auto anchor = static_cast<Eigen::Index>(8 * state.poses.size() + 2 * k);
   add(system, brightness, state.brightness[k].a, priors.gain_information);
   add(system, brightness + 1, state.brightness[k].b, priors.offset_information);
-  add(system, anchor, state.anchors[k].a, priors.gain_information);
-  add(system, anchor + 1, state.anchors[k].b, priors.offset_information);
+  Eigen::Index column = state.anchor_column(k);
+  for (const Brightness& anchor : state.anchors[k]) {
+    add(system, column++, anchor.a, priors.gain_information);
+    add(system, column++, anchor.b, priors.offset_information);
+  }
 }
 
 void add_window_priors(const Window& window, const WindowState& state, const WindowPriors& priors,

@@ -22,7 +22,7 @@ struct WindowPriors {
 
 WindowPriors make_window_priors(const Window& window, const WindowOptimizerOptions& options);
 
-/// Adds cost and derivatives of the priors of keyframe k: of its pose, its brightness and its anchor's.
+/// Adds cost and derivatives of the priors of keyframe k: of its pose, its brightness and its anchors'.
 void add_keyframe_priors(const WindowState& state, std::size_t k, const WindowPriors& priors, WindowSystem& system);
 
 /// Adds cost and derivatives of these priors and of the window's marginal prior.

@@ -52,6 +52,12 @@ void gather_depths(const Keyframe& host, std::size_t host_index, std::size_t n, 
 
 }  // namespace
 
+Eigen::Index WindowState::anchor_column(std::size_t k) const {
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < k; ++i) before += anchors[i].size();
+  return static_cast<Eigen::Index>(8 * poses.size() + 2 * before);
+}
+
 WindowState window_state(const Window& window) {
   WindowState state;
   for (const auto& keyframe : window.keyframes) {
@@ -60,7 +66,8 @@ WindowState window_state(const Window& window) {
     state.poses.push_back(
         {T, fixed >= 0 ? window.prior.frames[static_cast<std::size_t>(fixed)].T_linearised : T, fixed >= 0});
     state.brightness.push_back(keyframe->brightness);
-    state.anchors.push_back(keyframe->anchor.brightness);
+    state.anchors.emplace_back();
+    for (const Anchor& anchor : keyframe->anchors) state.anchors.back().push_back(anchor.brightness);
     state.offsets.emplace_back();
     if (!estimates_depth(*keyframe)) continue;
     for (const WindowPoint& point : keyframe->points) state.offsets.back().push_back(point.offset);
@@ -71,15 +78,15 @@ WindowState window_state(const Window& window) {
 WindowSystem evaluate_window(const Window& window, const WindowState& state, const Camera& camera,
                              const PhotometricOptions& options, int only) {
   const std::size_t n = window.keyframes.size();
-  // Hosts first: rendered views behind the keyframes.
-  std::vector<std::vector<HostPoint>> hosts(2 * n);
+  std::vector<std::vector<HostPoint>> hosts(n);
+  std::vector<std::vector<HostPoint>> views;  // of all anchors, keyframe by keyframe
   std::vector<PhotometricPair> tasks;
   std::vector<std::vector<DepthTerms>> terms(n * n);
   for (std::size_t k = 0; k < n; ++k) {
-    const Keyframe& host = *window.keyframes[k];
-    const SE3& T_view = host.anchor.T_world_view;
-    hosts[k] = make_host_points(host.points, state.offsets[k], camera, state.poses[k]);
-    hosts[n + k] = make_host_points(host.anchor.points, {}, camera, {T_view, T_view, false});
+    hosts[k] = make_host_points(window.keyframes[k]->points, state.offsets[k], camera, state.poses[k]);
+    for (const Anchor& anchor : window.keyframes[k]->anchors) {
+      views.push_back(make_host_points(anchor.points, {}, camera, {anchor.T_world_view, anchor.T_world_view, false}));
+    }
   }
   for (std::size_t host = 0; host < n; ++host) {
     for (std::size_t target = 0; target < n; ++target) {
@@ -88,24 +95,28 @@ WindowSystem evaluate_window(const Window& window, const WindowState& state, con
                        state.poses[host], state.poses[target], state.brightness[host], state.brightness[target], 1.0});
     }
   }
+  std::vector<std::size_t> anchored;  // keyframe of each anchor
   for (std::size_t k = 0; k < n; ++k) {
-    const MapAnchor& anchor = window.keyframes[k]->anchor;
-    tasks.push_back({anchor.points,
-                     hosts[n + k],
-                     &window.keyframes[k]->gradient,
-                     camera,
-                     {anchor.T_world_view, anchor.T_world_view, false},
-                     state.poses[k],
-                     state.anchors[k],
-                     state.brightness[k],
-                     anchor.weight});
+    for (std::size_t i = 0; i < window.keyframes[k]->anchors.size(); ++i) {
+      const Anchor& anchor = window.keyframes[k]->anchors[i];
+      tasks.push_back({anchor.points,
+                       views[anchored.size()],
+                       &window.keyframes[k]->gradient,
+                       camera,
+                       {anchor.T_world_view, anchor.T_world_view, false},
+                       state.poses[k],
+                       state.anchors[k][i],
+                       state.brightness[k],
+                       anchor.weight});
+      anchored.push_back(k);
+    }
   }
   std::vector<PairSystem> results(tasks.size());
   parallel_for(static_cast<int>(tasks.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const auto task = static_cast<std::size_t>(i);
       const bool anchor = task >= n * (n - 1);
-      const std::size_t host = anchor ? task - n * (n - 1) : task / (n - 1);
+      const std::size_t host = anchor ? anchored[task - n * (n - 1)] : task / (n - 1);
       const std::size_t target = anchor ? host : task % (n - 1) + (task % (n - 1) >= host ? 1 : 0);
       const bool wanted =
           only < 0 || host == static_cast<std::size_t>(only) || target == static_cast<std::size_t>(only);
@@ -133,7 +144,7 @@ WindowSystem evaluate_window(const Window& window, const WindowState& state, con
           system.depths[host], system.counts[host], prior_costs[host]);
     }
   });
-  const auto size = static_cast<Eigen::Index>(10 * n);
+  const Eigen::Index size = state.anchor_column(n);
   system.H = Eigen::MatrixXd::Zero(size, size);
   system.g = Eigen::VectorXd::Zero(size);
   for (const double cost : prior_costs) system.cost += cost;
@@ -154,19 +165,22 @@ WindowSystem evaluate_window(const Window& window, const WindowState& state, con
       system.pairs.push_back(pair);
     }
   }
+  system.anchors.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
-    const PairSystem& pair = results[task++];
     const auto t = static_cast<Eigen::Index>(8 * k);
-    const auto a = static_cast<Eigen::Index>(8 * n + 2 * k);
-    // The rendered view's pose is known: its six rows and columns are left out.
-    system.H.block<8, 8>(t, t) += pair.H.block<8, 8>(8, 8);
-    system.H.block<2, 8>(a, t) += pair.H.block<2, 8>(6, 8);
-    system.H.block<8, 2>(t, a) += pair.H.block<8, 2>(8, 6);
-    system.H.block<2, 2>(a, a) += pair.H.block<2, 2>(6, 6);
-    system.g.segment<8>(t) += pair.g.tail<8>();
-    system.g.segment<2>(a) += pair.g.segment<2>(6);
-    system.cost += pair.cost;
-    system.anchors.push_back(pair);
+    auto a = state.anchor_column(k);
+    for (std::size_t i = 0; i < state.anchors[k].size(); ++i, a += 2) {
+      const PairSystem& pair = results[task++];
+      // The view's pose is known: its six rows and columns are left out.
+      system.H.block<8, 8>(t, t) += pair.H.block<8, 8>(8, 8);
+      system.H.block<2, 8>(a, t) += pair.H.block<2, 8>(6, 8);
+      system.H.block<8, 2>(t, a) += pair.H.block<8, 2>(8, 6);
+      system.H.block<2, 2>(a, a) += pair.H.block<2, 2>(6, 6);
+      system.g.segment<8>(t) += pair.g.tail<8>();
+      system.g.segment<2>(a) += pair.g.segment<2>(6);
+      system.cost += pair.cost;
+      system.anchors[k].push_back(pair);
+    }
   }
   return system;
 }
@@ -218,14 +232,16 @@ WindowState stepped(const WindowState& state, const WindowSystem& system, const 
   const std::size_t n = state.poses.size();
   for (std::size_t k = 0; k < n; ++k) {
     const auto p = static_cast<Eigen::Index>(8 * k);
-    const auto a = static_cast<Eigen::Index>(8 * n + 2 * k);
+    Eigen::Index a = state.anchor_column(k);
     PoseEstimate& pose = next.poses[k];
     pose.T_world_camera = SE3::exp(step.segment<6>(p)) * pose.T_world_camera;
     if (!pose.fixed) pose.T_linearised = pose.T_world_camera;
     next.brightness[k].a += step[p + 6];
     next.brightness[k].b += step[p + 7];
-    next.anchors[k].a += step[a];
-    next.anchors[k].b += step[a + 1];
+    for (Brightness& anchor : next.anchors[k]) {
+      anchor.a += step[a++];
+      anchor.b += step[a++];
+    }
     if (system.depths[k].points.empty()) continue;
     const Eigen::VectorXd change = depth_steps(system.depths[k], damping, step);
     for (Eigen::Index i = 0; i < change.size(); ++i) {

@@ -14,21 +14,24 @@ namespace odosplat {
 
 /// Everything that an adjustment of a window moves, at one moment of it.
 struct WindowState {
-  std::vector<PoseEstimate> poses;           // a keyframe each
-  std::vector<Brightness> brightness;        // a keyframe each
-  std::vector<Brightness> anchors;           // a keyframe each, whether it has an anchor or not
-  std::vector<std::vector<double>> offsets;  // [1/m] of all points of a keyframe; none where nothing is estimated
+  std::vector<PoseEstimate> poses;               // a keyframe each
+  std::vector<Brightness> brightness;            // a keyframe each
+  std::vector<std::vector<Brightness>> anchors;  // of a keyframe's anchors
+  std::vector<std::vector<double>> offsets;      // [1/m] of all points of a keyframe; none where nothing is estimated
+
+  /// Column of the system below where the brightness of keyframe k's first anchor stands; k may be one too many.
+  Eigen::Index anchor_column(std::size_t k) const;
 };
 
-/// Normal equations of a whole window. Parameters: for keyframe k at 8k its pose (6, left perturbation), a, b; then for
-/// keyframe k at 8n + 2k its anchor's a, b. Offsets stand beside, a host each.
+/// Normal equations of a whole window. Parameters: for keyframe k at 8k its pose (6, left perturbation), a, b; then of
+/// every anchor, keyframe by keyframe, its a, b. Offsets stand beside, a host each.
 struct WindowSystem {
   Eigen::MatrixXd H;
   Eigen::VectorXd g;
   double cost = 0.0;
   std::vector<HostDepths> depths;                        // a keyframe each
   std::vector<PairSystem> pairs;                         // host-major, n (n - 1) of them; H and g summed up already
-  std::vector<PairSystem> anchors;                       // a keyframe each
+  std::vector<std::vector<PairSystem>> anchors;          // of a keyframe's anchors
   std::vector<std::vector<std::pair<int, int>>> counts;  // of a keyframe's estimated points: agreeing, contradicting
 };
 

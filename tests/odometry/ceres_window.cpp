@@ -26,7 +26,7 @@ class WindowCost : public ceres::CostFunction {
     for (std::size_t k = 0; k < window.keyframes.size(); ++k) {
       for (std::size_t i = 0; i < start_.offsets[k].size(); ++i) offsets_.emplace_back(k, i);
     }
-    keyframes_ = static_cast<Eigen::Index>(10 * window.keyframes.size());
+    keyframes_ = start_.anchor_column(window.keyframes.size());
     size_ = keyframes_ + static_cast<Eigen::Index>(offsets_.size());
     mutable_parameter_block_sizes()->push_back(static_cast<int>(size_));
     set_num_residuals(static_cast<int>(size_) + 1);
@@ -40,13 +40,15 @@ class WindowCost : public ceres::CostFunction {
     const std::size_t n = state.poses.size();
     for (std::size_t k = 0; k < n; ++k) {
       const auto p = static_cast<Eigen::Index>(8 * k);
-      const auto a = static_cast<Eigen::Index>(8 * n + 2 * k);
+      Eigen::Index a = start_.anchor_column(k);
       state.poses[k].T_world_camera = SE3::exp(x.segment<6>(p)) * start_.poses[k].T_world_camera;
       state.poses[k].T_linearised = state.poses[k].T_world_camera;
       state.brightness[k].a += x[p + 6];
       state.brightness[k].b += x[p + 7];
-      state.anchors[k].a += x[a];
-      state.anchors[k].b += x[a + 1];
+      for (Brightness& anchor : state.anchors[k]) {
+        anchor.a += x[a++];
+        anchor.b += x[a++];
+      }
     }
     for (std::size_t i = 0; i < offsets_.size(); ++i) {
       state.offsets[offsets_[i].first][offsets_[i].second] += x[keyframes_ + static_cast<Eigen::Index>(i)];

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
+#include <opencv2/imgproc.hpp>
 
 #include "box_room.hpp"
 #include "odosplat/core/error.hpp"
@@ -124,6 +126,48 @@ TEST_F(OdometryTest, GoesOnBeyondTheMapAndComesBackIntoIt) {
   }
   EXPECT_GT(outside, 30);
   EXPECT_LT(run.live[100].map_share, 0.2);
+}
+
+TEST_F(OdometryTest, WhatWasSeenOnTheWayOutHoldsTheCameraOnItsWayBack) {
+  // The map shows all of the first view and nothing of the farthest. Where it shows a part, its colours are out of
+  // place.
+  class Map : public test::BoxRoom {
+    ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override {
+      ViewImages view = test::BoxRoom::render(camera, T_world_camera, request);
+      if (map_share(view) > 0.9) return view;
+      const cv::Matx23d shift(1.0, 0.0, 1.0, 0.0, 1.0, 0.0);
+      cv::warpAffine(view.color.clone(), view.color, shift, view.color.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+      return view;
+    }
+  };
+  const auto path = [](int k) {
+    const double t = 2.0 * 3.14159265 * k / 200.0;
+    return SE3(so3_exp({0.05 * std::sin(2.0 * t), -0.8 * (1.0 - std::cos(t)), 0.0}),
+               {0.5 * std::sin(t), 0.15 * std::sin(2.0 * t), 0.3 * std::sin(t)});
+  };
+  std::map<bool, double> error;  // [m] root mean square of the keyframes of which the map shows a part
+  for (const bool enabled : {true, false}) {
+    Map map;
+    map.mapped_from = -2.1;
+    OdometryOptions options;
+    options.memory.enabled = enabled;
+    const Played run = play(map, 200, options, {}, {}, path);
+    EXPECT_EQ(run.statistics.lost, 0);
+    EXPECT_GT(run.live[0].map_share, 0.9);
+    EXPECT_LT(run.live[100].map_share, 0.1);
+    double squares = 0.0;
+    int keyframes = 0;
+    for (int k = 100; k < 200; ++k) {
+      const TrackResult& result = run.live[static_cast<std::size_t>(k)];
+      if (!result.keyframe || result.map_share < 0.4 || result.map_share > 0.9) continue;
+      squares += (path(k).inverse() * result.T_world_camera).translation().squaredNorm();
+      ++keyframes;
+    }
+    EXPECT_GE(keyframes, 4);
+    error[enabled] = std::sqrt(squares / keyframes);
+  }
+  EXPECT_LT(error[true], 0.01);
+  EXPECT_LT(error[true], 0.5 * error[false]);
 }
 
 TEST_F(OdometryTest, ScaleStays) {

@@ -121,9 +121,9 @@ TEST_F(WindowOptimizerTest, PlacesFarFromTheOriginMakeNoDifference) {
   const Eigen::Vector3d by(800.0, -500.0, 300.0);
   for (const auto& keyframe : far.keyframes) {
     keyframe->T_world_camera = SE3(keyframe->T_world_camera.rotation(), keyframe->T_world_camera.translation() + by);
-    keyframe->anchor.T_world_view =
-        SE3(keyframe->anchor.T_world_view.rotation(), keyframe->anchor.T_world_view.translation() + by);
-    for (auto* points : {&keyframe->points, &keyframe->anchor.points}) {
+    keyframe->anchors[0].T_world_view =
+        SE3(keyframe->anchors[0].T_world_view.rotation(), keyframe->anchors[0].T_world_view.translation() + by);
+    for (auto* points : {&keyframe->points, &keyframe->anchors[0].points}) {
       for (WindowPoint& point : *points) point.plane_world.D += point.plane_world.N.dot(by);
     }
   }
@@ -160,12 +160,50 @@ TEST_F(WindowOptimizerTest, FindsBrightness) {
 TEST_F(WindowOptimizerTest, AWrongAnchorIsOutvoted) {
   Window window = make_window(5, true);
   // One keyframe's rendered view shows another place: nearly all its points are outliers.
-  for (WindowPoint& point : window.keyframes[2]->anchor.points) {
+  for (WindowPoint& point : window.keyframes[2]->anchors[0].points) {
     for (float& intensity : point.intensity) intensity = 1.0F - intensity;
   }
   disturb(window, 0);
   optimizer_.optimize(window, camera_);
   EXPECT_LT(largest_error(window), 0.002);
+}
+
+TEST_F(WindowOptimizerTest, TwoAnchorsOfHalfTheWeightAreAsGoodAsOne) {
+  Window one = make_window(4, true);
+  Window two = make_window(4, true);
+  for (const auto& keyframe : two.keyframes) {
+    keyframe->anchors[0].weight *= 0.5;
+    keyframe->anchors.push_back(keyframe->anchors[0]);
+  }
+  for (Window* window : {&one, &two}) {
+    disturb(*window, 1);
+    optimizer_.optimize(*window, camera_);
+    EXPECT_LT(largest_error(*window), 0.0015);
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Keyframe& a = *one.keyframes[k];
+    const Keyframe& b = *two.keyframes[k];
+    EXPECT_LT((a.T_world_camera.inverse() * b.T_world_camera).log().norm(), 1e-5);
+    EXPECT_NEAR(a.anchors[0].brightness.a, b.anchors[1].brightness.a, 1e-4);
+  }
+  for (Window* window : {&one, &two}) marginalise_keyframe(*window, 0, camera_, {}, {});
+  ASSERT_EQ(one.prior.H.rows(), two.prior.H.rows());
+  EXPECT_LT((one.prior.H - two.prior.H).norm(), 0.01 * one.prior.H.norm());
+}
+
+TEST_F(WindowOptimizerTest, AnAnchorsUncertaintyIsPassedOn) {
+  Window window = make_window(4, true);
+  optimizer_.optimize(window, camera_);
+  const Matrix6d before = window.keyframes[2]->covariance;
+  const Matrix6d own = 1e-4 * Matrix6d::Identity();
+  for (const double share : {0.5, 1.5}) {
+    Anchor anchor = window.keyframes[2]->anchors[0];
+    anchor.covariance = share * own;
+    window.keyframes[2]->anchors.push_back(anchor);
+  }
+  window.keyframes[2]->anchors.erase(window.keyframes[2]->anchors.begin());
+  optimizer_.optimize(window, camera_);
+  EXPECT_LT((window.keyframes[2]->covariance - before - own).norm(), 0.02 * own.norm());
 }
 
 TEST_F(WindowOptimizerTest, CovarianceIsPositiveAndSmallerWithMoreKeyframes) {
@@ -195,7 +233,7 @@ TEST_F(WindowOptimizerTest, WhereImagesSayNothingKeyframesStayWhereTheyWereTrack
   Window window = make_window(2, true);
   for (const auto& keyframe : window.keyframes) {
     keyframe->points.clear();
-    keyframe->anchor.points.clear();
+    keyframe->anchors.clear();
     keyframe->T_world_tracked = SE3::exp(Vector6d::Constant(0.01)) * keyframe->T_world_camera;
   }
   std::vector<SE3> tracked;
@@ -267,7 +305,7 @@ TEST_F(WindowOptimizerTest, MarginalisedKeyframesStillHoldTheOthers) {
   std::map<bool, double> uncertainty;
   for (const bool kept : {true, false}) {
     Window window = make_window(4, true, DepthUse::prior);
-    for (std::size_t k = 1; k < window.keyframes.size(); ++k) window.keyframes[k]->anchor = {};
+    for (std::size_t k = 1; k < window.keyframes.size(); ++k) window.keyframes[k]->anchors.clear();
     optimizer_.optimize(window, camera_);
     MarginalisationOptions options;
     options.enabled = kept;
