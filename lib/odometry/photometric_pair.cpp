@@ -122,9 +122,12 @@ PatternSums sum_pattern(const WindowPoint& point, const WarpedPattern& at, const
   const Eigen::Map<const Array8f> intensity(point.intensity);
   const Eigen::Map<const Array8f> weight(point.weight);
   const Array8f c = k.gain * (intensity - k.host_b);
-  const Array8f r = value - k.target_b - c;
+  const Array8f expected = k.target_b + c;
+  // Clipped as it must be, in either image: it agrees, and says nothing more.
+  const auto white = (value >= clipped_value && expected >= value) || (intensity >= clipped_value && value >= expected);
+  const Array8f r = white.select(0.0F, value - expected);
   const Array8f by_depth = gx * flow_sigma.x() + gy * flow_sigma.y();
-  const Array8f base = weight * (k.noise2 / (k.noise2 + by_depth * by_depth));
+  const Array8f base = white.select(0.0F, weight * (k.noise2 / (k.noise2 + by_depth * by_depth)));
   const Array8f size = r.abs();
   const Array8f inner = size.min(k.huber);
   const Array8f w = base * (k.huber / size.max(k.huber));

@@ -2,6 +2,8 @@
 // Copyright 2026 The odosplat authors
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+
 #include <cmath>
 
 #include "box_room.hpp"
@@ -91,6 +93,30 @@ class PhotometricPairTest : public testing::Test {
   std::vector<WindowPoint> points_;
   GradientImage target_;
 };
+
+TEST_F(PhotometricPairTest, WhatIsClippedAsItMustBeSaysNothing) {
+  const double gain = 1.6;
+  const auto clip = [gain](double value) { return std::min(1.0F, static_cast<float>(gain * value)); };
+  for (const bool clipped_host : {false, true}) {
+    SCOPED_TRACE(clipped_host);
+    GrayImage host = room_.gray(camera_, T_world_host_);
+    GrayImage target = room_.gray(camera_, T_world_target_);
+    for (float& value : clipped_host ? host : target) value = clip(value);
+    const FramePyramid pyramid = build_frame_pyramid(camera_, host);
+    PixelSelector selector({});
+    points_ = make_window_points(camera_, build_gradients(pyramid), room_.render(camera_, T_world_host_, {}),
+                                 T_world_host_, 150, selector, {}, {}, DepthUse::pose_aware);
+    target_ = build_gradient(target);
+    Pair p = pair();
+    (clipped_host ? p.host : p.target).a = std::log(gain);
+    const PairSystem system = evaluate(p);
+    EXPECT_LE(system.outliers, 1);
+    EXPECT_GT(system.inliers, 80);
+    const Eigen::Matrix<double, 8, 1> step = system.H.bottomRightCorner<8, 8>().ldlt().solve(system.g.tail<8>());
+    EXPECT_LT(step.head<3>().norm(), 0.002);
+    EXPECT_LT(std::abs(step[6]), 0.03);
+  }
+}
 
 TEST_F(PhotometricPairTest, ResidualsVanishAtTheTruth) {
   const PairSystem system = evaluate(pair());
