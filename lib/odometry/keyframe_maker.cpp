@@ -63,6 +63,7 @@ void AnchorOptions::check() const {
   require(far_off_angle > 0.0, "anchor.far_off_angle", "positive");
   require(far_off_correlation >= -1.0 && far_off_correlation <= 1.0, "anchor.far_off_correlation", "in [-1, 1]");
   tone.check();
+  blur.check();
   agreement.check();
   depth_agreement.check();
   require(reset_flow >= render_again_flow, "anchor.reset_flow", "at least render_again_flow");
@@ -190,7 +191,7 @@ std::optional<AgreementGrid> KeyframeMaker::add_anchor(MadeKeyframe& made, const
   const FramePyramid& pyramid = *image.even;
   const AnchorOptions& options = options_.anchor;
   Keyframe& keyframe = *made.keyframe;
-  const GrayImage gray = to_gray(view.color);
+  GrayImage gray = to_gray(view.color);
   RenderedReference rendered = rendered_reference(pyramid.cameras.front(), gray, view);
   if (rendered.reference.empty()) return {};
   Alignment alignment = find_in_view(rendered.reference, pyramid, tracker, options, context);
@@ -199,14 +200,26 @@ std::optional<AgreementGrid> KeyframeMaker::add_anchor(MadeKeyframe& made, const
   const double max_log_gain = tracker.options().max_log_gain;
   made.anchor = alignment;
   if (!is_good(alignment, options, max_log_gain)) return {};
+  const auto try_again = [&](GrayImage other) {
+    RenderedReference view_again = rendered_reference(pyramid.cameras.front(), other, view);
+    const Alignment again = tracker.align(view_again.reference, *evened.even, alignment.T_target_host, {}, 1, 0);
+    if (!is_good(again, options, max_log_gain) || !(worth(again) > worth(alignment))) return false;
+    rendered = std::move(view_again);
+    gray = std::move(other);
+    made.anchor = alignment = again;
+    return true;
+  };
   if (const auto tone = estimate_tone(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness,
                                       options.tone)) {
-    RenderedReference toned = rendered_reference(pyramid.cameras.front(), apply_tone(gray, *tone), view);
-    const Alignment again = tracker.align(toned.reference, *evened.even, alignment.T_target_host, {}, 1, 0);
-    if (is_good(again, options, max_log_gain) && worth(again) > worth(alignment)) {
-      rendered = std::move(toned);
-      made.anchor = alignment = again;
-    }
+    try_again(apply_tone(gray, *tone));
+  }
+  // A large one takes two steps: each is right to second order only.
+  for (int step = 0; step < 2; ++step) {
+    const auto samples =
+        brightness_samples(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness, 0);
+    const auto blur =
+        estimate_blur(rendered.gradients.front(), samples, std::exp(alignment.brightness.a), options.blur);
+    if (!blur || !try_again(apply_blur(gray, *blur))) break;
   }
   if (changed) made.evened = evened;
   Anchor anchor;

@@ -8,6 +8,7 @@
 
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/odometry/even_rows.hpp"
+#include "odosplat/odometry/image_blur.hpp"
 #include "odosplat/odometry/immature_points.hpp"
 #include "odosplat/odometry/keyframe.hpp"
 #include "odosplat/odometry/local_agreement.hpp"
@@ -46,6 +47,7 @@ struct AnchorOptions {
   double far_off_correlation = 0.9;
 
   ToneOptions tone;  // of the image against the map's colours
+  BlurOptions blur;  // the same
   // Of the points in the window. ATE [mm] of icl_office_kt3, redkitchen, aug_icl_livingroom1 and the stand-ins icl_3
   // and icl_1 with noise 1.5 and strength 8: 1.5, 17, 0.68, 2.2, 2.1; 4 and 4: 1.7, 19, 0.63, 2.4, 2.2. In the
   // alignment before it gains nothing.
