@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 
 #include "box_room.hpp"
@@ -96,17 +97,17 @@ class PhotometricPairTest : public testing::Test {
 
 TEST_F(PhotometricPairTest, WhatIsClippedAsItMustBeSaysNothing) {
   const double gain = 1.6;
-  const auto clip = [gain](double value) { return std::min(1.0F, static_cast<float>(gain * value)); };
+  const auto clip = [gain](float& value) { value = std::min(1.0F, static_cast<float>(gain) * value); };
   for (const bool clipped_host : {false, true}) {
     SCOPED_TRACE(clipped_host);
-    GrayImage host = room_.gray(camera_, T_world_host_);
-    GrayImage target = room_.gray(camera_, T_world_target_);
-    for (float& value : clipped_host ? host : target) value = clip(value);
-    const FramePyramid pyramid = build_frame_pyramid(camera_, host);
-    PixelSelector selector({});
-    points_ = make_window_points(camera_, build_gradients(pyramid), room_.render(camera_, T_world_host_, {}),
-                                 T_world_host_, 150, selector, {}, {}, DepthUse::pose_aware);
-    target_ = build_gradient(target);
+    if (clipped_host) {
+      target_ = build_gradient(room_.gray(camera_, T_world_target_));
+      for (WindowPoint& point : points_) std::for_each(point.intensity, point.intensity + pattern_size, clip);
+    } else {
+      GrayImage target = room_.gray(camera_, T_world_target_);
+      std::for_each(target.begin(), target.end(), clip);
+      target_ = build_gradient(target);
+    }
     Pair p = pair();
     (clipped_host ? p.host : p.target).a = std::log(gain);
     const PairSystem system = evaluate(p);
