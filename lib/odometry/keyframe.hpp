@@ -63,7 +63,8 @@ struct Keyframe {
   /// Where tracking and the map's anchor had it before the window was adjusted: a weak prior of its pose.
   std::optional<SE3> T_world_tracked;
   Brightness brightness;
-  Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera
+  Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera, as the window knows it
+  int outside = 0;                         // keyframes since the map was left; 0 in it
   GradientImage gradient;                  // full size
   std::vector<WindowPoint> points;
   std::vector<ImmaturePoint> immature;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "odosplat/core/error.hpp"
 #include "odosplat/odometry/seen_pixel.hpp"
 
 namespace odosplat {
@@ -16,6 +17,10 @@ constexpr double recalled_flow = 0.5;  // [px] a keyframe that others move furth
 
 }  // namespace
 
+void DriftOptions::check() const {
+  require(translation >= 0.0 && rotation >= 0.0, "drift.translation and rotation", "at least 0");
+}
+
 void KeyframeBackendOptions::check() const {
   keyframe.check();
   memory.check();
@@ -23,6 +28,7 @@ void KeyframeBackendOptions::check() const {
   optimizer.check();
   marginalisation.check();
   activation.check();
+  drift.check();
 }
 
 KeyframeBackend::KeyframeBackend(const Camera& camera, MapView& map, const Tracker& tracker,
@@ -227,6 +233,9 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   } else if (made.anchored || !made.verifiable) {
     outside_ = false;
   }
+  if (!made.in_map && !made.anchored && !window_.keyframes.empty()) {
+    keyframe->outside = window_.keyframes.back()->outside + 1;
+  }
   {
     const StageTimer timer(stages_[stage_optimise]);
     make_room();
@@ -251,10 +260,19 @@ RenderedView KeyframeBackend::seen_from(MapView& map, const SE3& T_world_camera)
   return {T_world_camera, map.render(camera_, T_world_camera, {options_.keyframe.anchor.enabled, true})};
 }
 
+Matrix6d KeyframeBackend::covariance(const Keyframe& keyframe) const {
+  const DriftOptions& drift = options_.drift;
+  Vector6d variance;
+  variance << Eigen::Vector3d::Constant(drift.translation * drift.translation),
+      Eigen::Vector3d::Constant(drift.rotation * drift.rotation);
+  const Matrix6d at_camera = SE3(Eigen::Quaterniond::Identity(), keyframe.T_world_camera.translation()).adjoint();
+  return keyframe.covariance + keyframe.outside * (at_camera * variance.asDiagonal() * at_camera.transpose());
+}
+
 std::vector<ReferenceFrame> KeyframeBackend::references() const {
   std::vector<ReferenceFrame> references;
   for (const auto& k : window_.keyframes) {
-    references.push_back({k->id, k->T_world_camera, k->brightness, k->covariance, k->reference});
+    references.push_back({k->id, k->T_world_camera, k->brightness, covariance(*k), k->reference});
   }
   return references;
 }

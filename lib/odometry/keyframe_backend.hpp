@@ -20,6 +20,16 @@
 
 namespace odosplat {
 
+/// What one keyframe outside the map adds to the uncertainty of its place: a window takes its oldest keyframe for
+/// known, and so knows nothing of drift. Standard deviations, as OdometryOptions::keyframe_covariance_factor finds
+/// them.
+struct DriftOptions {
+  double translation = 0.001;  // [m] along each axis
+  double rotation = 0.0005;    // [rad] about each
+
+  void check() const;
+};
+
 struct KeyframeBackendOptions {
   KeyframeMakerOptions keyframe;
   KeyframeMemoryOptions memory;
@@ -27,6 +37,7 @@ struct KeyframeBackendOptions {
   WindowOptimizerOptions optimizer;
   MarginalisationOptions marginalisation;
   ActivationOptions activation;
+  DriftOptions drift;
 
   void check() const;
 };
@@ -109,6 +120,8 @@ class KeyframeBackend {
   void come_back(const SE3& T_correction, bool far);
   std::vector<ProjectedPoint> points_seen_from(const SE3& T_world_camera) const;
   std::vector<ReferenceFrame> references() const;
+  /// Of a keyframe's place: what its window says, and drift.
+  Matrix6d covariance(const Keyframe& keyframe) const;
 
   Camera camera_;
   MapView& map_;

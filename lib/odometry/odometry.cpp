@@ -33,6 +33,7 @@ void OdometryOptions::check() const {
   optimizer.check();
   marginalisation.check();
   activation.check();
+  drift.check();
   accept.check();
   require(frame_covariance_factor > 0.0, "frame_covariance_factor", "positive");
   require(keyframe_covariance_factor > 0.0, "keyframe_covariance_factor", "positive");
@@ -58,7 +59,7 @@ Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& op
       front_({options.tracker, options.policy, options.accept}),
       backend_(camera, map, front_.aligner(),
                {options.keyframe, options.memory, options.window, options.optimizer, options.marginalisation,
-                options.activation}) {
+                options.activation, options.drift}) {
   camera_.check();
   options_.check();
   require(T_world_camera_start.is_finite(), "start pose", "finite");

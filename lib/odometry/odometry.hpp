@@ -27,6 +27,7 @@ struct OdometryOptions {
   WindowOptimizerOptions optimizer;
   MarginalisationOptions marginalisation;
   ActivationOptions activation;
+  DriftOptions drift;
   AcceptOptions accept;
   /// Neighbouring pixels err alike, and a map's colours are off by parts of a pixel for a whole view; normal equations
   /// know nothing of either. A frame's covariance is that of its alignment with its keyframe times the first, plus its

@@ -125,6 +125,12 @@ TEST_F(OdometryTest, GoesOnBeyondTheMapAndComesBackIntoIt) {
     }
   }
   EXPECT_GT(outside, 30);
+  // What is known of the place fades outside, and is known again inside.
+  const auto sigma = [&run](std::size_t k) {
+    return std::sqrt(run.live[k].covariance.diagonal().head<3>().maxCoeff());
+  };
+  EXPECT_GT(sigma(160), 2.0 * sigma(40));
+  EXPECT_LT(sigma(195), sigma(40));
   EXPECT_LT(run.live[100].map_share, 0.2);
 }
 
