@@ -39,12 +39,12 @@ struct WindowSummary {
 
 /// Photometric bundle adjustment of a window: poses and brightness of its keyframes, brightness of its anchors, and the
 /// inverse depths that are estimated; every keyframe's points are compared with every other keyframe, and every
-/// rendered view with its keyframe. Source: Engel, Koltun, Cremers 2018 (DSO); Levenberg-Marquardt with the offsets
-/// eliminated (Schur complement), so that 10 parameters a keyframe are left. Differs: a step that does not lower the
-/// cost is taken back; no null space is projected out. Same bits for any number of threads.
-/// Ceres is the tests' second opinion: it reaches the same optimum. It drove this adjustment before, on the same
-/// equations in double precision, and took 66 ms of CPU time a full window of seven keyframes on icl_office_kt3
-/// (release build) where this takes 30 (pose_aware depth, 350 points a keyframe and 700 an anchor, one thread).
+/// anchor with its keyframe. Source: Engel, Koltun, Cremers 2018 (DSO); Levenberg-Marquardt with the offsets
+/// eliminated (Schur complement), so that 8 parameters a keyframe and 2 an anchor are left. Differs: a step that does
+/// not lower the cost is taken back; no null space is projected out. Same bits for any number of threads. Ceres is the
+/// tests' second opinion: it reaches the same optimum. It drove this adjustment before, on the same equations in double
+/// precision, and took 66 ms of CPU time a full window of seven keyframes on icl_office_kt3 (release build) where this
+/// takes 30 (pose_aware depth, 350 points a keyframe and 700 an anchor, one thread).
 class WindowOptimizer {
  public:
   explicit WindowOptimizer(const WindowOptimizerOptions& options);
