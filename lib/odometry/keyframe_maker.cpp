@@ -213,13 +213,16 @@ std::optional<AgreementGrid> KeyframeMaker::add_anchor(MadeKeyframe& made, const
                                       options.tone)) {
     try_again(apply_tone(gray, *tone));
   }
+  const auto take_samples = [&] {
+    return brightness_samples(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness, 0);
+  };
+  std::vector<BrightnessSample> samples = take_samples();
   // A large one takes two steps: each is right to second order only.
   for (int step = 0; step < 2; ++step) {
-    const auto samples =
-        brightness_samples(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness, 0);
     const auto blur =
         estimate_blur(rendered.gradients.front(), samples, std::exp(alignment.brightness.a), options.blur);
     if (!blur || !try_again(apply_blur(gray, *blur))) break;
+    samples = take_samples();
   }
   if (changed) made.evened = evened;
   Anchor anchor;
@@ -230,8 +233,6 @@ std::optional<AgreementGrid> KeyframeMaker::add_anchor(MadeKeyframe& made, const
       make_window_points(pyramid.cameras.front(), rendered.gradients, view, anchor.T_world_view,
                          static_cast<int>(made.point_share * point_options.anchor_points),
                          anchor_selectors_.of(rendered.reference.bare), point_options, options_.plane, DepthUse::fixed);
-  const std::vector<BrightnessSample> samples =
-      brightness_samples(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness, 0);
   const AgreementGrid agreement = local_agreement(pyramid.cameras.front(), samples, options.agreement);
   for (WindowPoint& point : anchor.points) {
     for (float& weight : point.weight) weight *= static_cast<float>(agreement.at(point.u, point.v));

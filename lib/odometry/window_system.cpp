@@ -165,7 +165,6 @@ WindowSystem evaluate_window(const Window& window, const WindowState& state, con
       system.pairs.push_back(pair);
     }
   }
-  system.anchors.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     const auto t = static_cast<Eigen::Index>(8 * k);
     auto a = state.anchor_column(k);
@@ -179,7 +178,6 @@ WindowSystem evaluate_window(const Window& window, const WindowState& state, con
       system.g.segment<8>(t) += pair.g.tail<8>();
       system.g.segment<2>(a) += pair.g.segment<2>(6);
       system.cost += pair.cost;
-      system.anchors[k].push_back(pair);
     }
   }
   return system;

@@ -31,7 +31,6 @@ struct WindowSystem {
   double cost = 0.0;
   std::vector<HostDepths> depths;                        // a keyframe each
   std::vector<PairSystem> pairs;                         // host-major, n (n - 1) of them; H and g summed up already
-  std::vector<std::vector<PairSystem>> anchors;          // of a keyframe's anchors
   std::vector<std::vector<std::pair<int, int>>> counts;  // of a keyframe's estimated points: agreeing, contradicting
 };
 
