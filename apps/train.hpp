@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "odosplat/splat/initialize.hpp"

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

@@ -53,8 +53,8 @@ void KeyframeBackend::trace(const TrackedImage& image) {
   }
 }
 
-std::vector<ProjectedPoint> KeyframeBackend::points_seen_from(const SE3& T_world_camera) const {
-  std::vector<ProjectedPoint> seen;
+std::vector<TransferredPoint> KeyframeBackend::points_seen_from(const SE3& T_world_camera) const {
+  std::vector<TransferredPoint> seen;
   const SE3 T_camera_world = T_world_camera.inverse();
   for (const auto& host : window_.keyframes) {
     const SE3 T_camera_host = T_camera_world * host->T_world_camera;

@@ -118,7 +118,7 @@ class KeyframeBackend {
   void make_room();
   /// Moves the keyframes that only their own motion has placed; far: what the map holds is elsewhere, and is dropped.
   void come_back(const SE3& T_correction, bool far);
-  std::vector<ProjectedPoint> points_seen_from(const SE3& T_world_camera) const;
+  std::vector<TransferredPoint> points_seen_from(const SE3& T_world_camera) const;
   std::vector<ReferenceFrame> references() const;
   /// Of a keyframe's place: what its window says, and drift.
   Matrix6d covariance(const Keyframe& keyframe) const;

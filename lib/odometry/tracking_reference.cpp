@@ -32,10 +32,10 @@ ReferencePoint make_point(const Camera& camera, const GradientImage& gradient, c
 
 /// Mean inverse depth of the points that fall on each pixel of a level, 0 where none does; one pixel wider than they
 /// are.
-cv::Mat1f splat(const cv::Size& size, int level, std::span<const ProjectedPoint> projected) {
+cv::Mat1f splat(const cv::Size& size, int level, std::span<const TransferredPoint> projected) {
   cv::Mat1f sum(size, 0.0F);
   cv::Mat1f count(size, 0.0F);
-  for (const ProjectedPoint& p : projected) {
+  for (const TransferredPoint& p : projected) {
     const int x = static_cast<int>(p.u + 0.5F) >> level;
     const int y = static_cast<int>(p.v + 0.5F) >> level;
     if (x < 1 || y < 1 || x >= size.width - 1 || y >= size.height - 1) continue;
@@ -150,7 +150,7 @@ TrackingReference build_reference(const FramePyramid& pyramid, std::span<const G
 }
 
 void add_projected_points(TrackingReference& reference, std::span<const GradientImage> gradients,
-                          std::span<const ProjectedPoint> projected, const ReferenceOptions& options) {
+                          std::span<const TransferredPoint> projected, const ReferenceOptions& options) {
   if (projected.empty()) return;
   const float c2 = static_cast<float>(options.gradient_weight * options.gradient_weight);
   const float least = static_cast<float>(options.min_gradient * options.min_gradient);

@@ -50,7 +50,7 @@ struct ReferenceOptions {
 };
 
 /// A point of another image, where it falls in this one.
-struct ProjectedPoint {
+struct TransferredPoint {
   float u, v;  // [px] on level 0
   float q;     // [1/m] inverse depth here
 };
@@ -70,6 +70,6 @@ TrackingReference build_reference(const FramePyramid& pyramid, std::span<const G
 /// their neighbours, as far as they have some gradient and are not in the reference already. Where several points fall
 /// on one pixel their inverse depths are averaged. Source: DSO's coarse tracking reference.
 void add_projected_points(TrackingReference& reference, std::span<const GradientImage> gradients,
-                          std::span<const ProjectedPoint> projected, const ReferenceOptions& options);
+                          std::span<const TransferredPoint> projected, const ReferenceOptions& options);
 
 }  // namespace odosplat

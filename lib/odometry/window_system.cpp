@@ -187,18 +187,23 @@ void add_marginal_prior(const Window& window, const WindowState& state, WindowSy
   const MarginalPrior& prior = window.prior;
   const std::size_t m = prior.frames.size();
   if (m == 0) return;
-  std::vector<Eigen::Index> columns;
+  std::vector<Eigen::Index> columns(m);  // first of each frame's eight
   Eigen::VectorXd x(static_cast<Eigen::Index>(8 * m));
   for (std::size_t i = 0; i < m; ++i) {
     const auto found = std::find(window.keyframes.begin(), window.keyframes.end(), prior.frames[i].keyframe);
     const auto k = static_cast<std::size_t>(found - window.keyframes.begin());
-    for (Eigen::Index c = 0; c < 8; ++c) columns.push_back(static_cast<Eigen::Index>(8 * k) + c);
+    columns[i] = static_cast<Eigen::Index>(8 * k);
     x.segment<8>(static_cast<Eigen::Index>(8 * i)) =
         marginal_deviation(prior.frames[i], state.poses[k].T_world_camera, state.brightness[k]);
   }
   const Eigen::VectorXd Hx = prior.H * x;
-  system.H(columns, columns) += prior.H;
-  system.g(columns) += prior.g + Hx;
+  for (std::size_t i = 0; i < m; ++i) {
+    const auto row = static_cast<Eigen::Index>(8 * i);
+    for (std::size_t j = 0; j < m; ++j) {
+      system.H.block<8, 8>(columns[i], columns[j]) += prior.H.block<8, 8>(row, static_cast<Eigen::Index>(8 * j));
+    }
+    system.g.segment<8>(columns[i]) += prior.g.segment<8>(row) + Hx.segment<8>(row);
+  }
   system.cost += prior.g.dot(x) + 0.5 * x.dot(Hx);
 }
 

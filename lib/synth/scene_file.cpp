@@ -44,7 +44,7 @@ void add_names(std::vector<std::string>& known, const std::vector<ParameterRow>&
 }
 
 template <class Row>
-const Row& row_of(const YamlPart& word, const std::vector<Row>& rows) {
+Row row_of(const YamlPart& word, const std::vector<Row>& rows) {
   const std::string name = word.text();
   std::string names;
   for (const Row& row : rows) {
@@ -89,7 +89,7 @@ class SceneReader {
       const YamlPart part = root_.at("materials").at(name);
       MaterialDescription material;
       material.name = name;
-      const PatternRow& pattern =
+      const PatternRow pattern =
           part.has("pattern") ? row_of(part.at("pattern"), material_patterns()) : material_patterns()[0];
       material.pattern = pattern.name;
       std::vector<std::string> known{"pattern"};
@@ -146,7 +146,7 @@ class SceneReader {
 
   void read_furniture(const YamlPart& part) {
     FurnitureDescription thing;
-    const FurnitureRow& row = row_of(part.at("kind"), furniture_kinds());
+    const FurnitureRow row = row_of(part.at("kind"), furniture_kinds());
     thing.kind = row.name;
     std::vector<std::string> known{"kind", "at", "turn", "materials"};
     add_names(known, row.parameters);

@@ -12,6 +12,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "locations.hpp"
+
 namespace odosplat::apps_test {
 
 std::string read_text(const std::filesystem::path& file) {
@@ -82,11 +84,11 @@ RunResult run_program(const std::string& program, const std::vector<std::string>
   return run_and_signal(program, arguments, 0, [] { return false; });
 }
 
-RunResult run_odosplat(const std::vector<std::string>& arguments) { return run_program(ODOSPLAT_PROGRAM, arguments); }
+RunResult run_odosplat(const std::vector<std::string>& arguments) { return run_program(test::program(), arguments); }
 
 RunResult run_odosplat_and_signal(const std::vector<std::string>& arguments, int signal,
                                   const std::function<bool()>& ready) {
-  return run_and_signal(ODOSPLAT_PROGRAM, arguments, signal, ready);
+  return run_and_signal(test::program(), arguments, signal, ready);
 }
 
 }  // namespace odosplat::apps_test

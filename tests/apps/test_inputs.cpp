@@ -9,6 +9,7 @@
 #include <opencv2/videoio.hpp>
 #include <sstream>
 
+#include "locations.hpp"
 #include "odosplat/io/image_file.hpp"
 #include "odosplat/io/trajectory_file.hpp"
 #include "run_program.hpp"
@@ -155,7 +156,7 @@ TEST_F(Inputs, TheExampleGivesTheProgramsPoses) {
   const Trajectory live = read_trajectory(out + "/trajectory_live.txt");
   std::vector<std::string> words{sequence_ + "/rgb/%04d.png", sequence_ + "/camera.yaml", map};
   for (const std::string& word : start_words()) words.push_back(word);
-  const RunResult example = run_program(ODOSPLAT_EXAMPLE, words);
+  const RunResult example = run_program(test::example(), words);
   ASSERT_EQ(example.status, 0) << example.err;
   const auto lines = lines_of(example.out);
   ASSERT_EQ(lines.size(), static_cast<std::size_t>(frames));
@@ -167,7 +168,7 @@ TEST_F(Inputs, TheExampleGivesTheProgramsPoses) {
     // Its grey values are rounded to 8 bits.
     EXPECT_LT((Eigen::Vector3d(row[1], row[2], row[3]) - live[k].T_world_camera.translation()).norm(), 0.003) << k;
   }
-  EXPECT_EQ(run_program(ODOSPLAT_EXAMPLE, {"0"}).status, 2);
+  EXPECT_EQ(run_program(test::example(), {"0"}).status, 2);
 }
 
 }  // namespace

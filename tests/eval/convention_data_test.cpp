@@ -10,6 +10,7 @@
 #include <ostream>
 #include <string>
 
+#include "locations.hpp"
 #include "odosplat/eval/convention_check.hpp"
 #include "odosplat/io/sequence.hpp"
 
@@ -57,7 +58,7 @@ std::vector<std::optional<SE3>> poses_at_depth(const std::string& folder, const 
 class ConventionOfData : public testing::TestWithParam<DataSet> {
  protected:
   void SetUp() override {
-    const std::string path = std::string(ODOSPLAT_SHARED_DATA) + "/" + GetParam().name;
+    const std::string path = test::shared_data() + "/" + GetParam().name;
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "the set is not at " << path;
     SequenceOptions options;
     options.as_stored = true;

@@ -13,6 +13,7 @@
 
 #include "eval/evo_figures.hpp"
 #include "eval/read_poses.hpp"
+#include "locations.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
 
@@ -196,7 +197,7 @@ void expect_equal(const Statistics& ours, const EvoStatistics& evo) {
 }
 
 TEST(Evaluate, EqualsTheRecordedFiguresOfEvo) {
-  const std::string folder = ODOSPLAT_SHARED_DATA "/evo/";
+  const std::string folder = test::shared_data() + "/evo/";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the trajectories are not at " << folder;
   std::string read_truth;
   std::string read_estimate;

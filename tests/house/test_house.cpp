@@ -13,12 +13,14 @@
 #include <string>
 #include <vector>
 
+#include "locations.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
 
-const fs::path root = ODOSPLAT_SOURCE_DIR;
+const fs::path root = odosplat::test::source_dir();
 
 struct Room {
   std::string folder;

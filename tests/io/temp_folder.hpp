@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "locations.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
@@ -77,7 +78,7 @@ std::string error_of(Call call) {
 
 /// Copies a folder or file of the shared data; false if it is not there.
 inline bool copy_shared(const std::string& name, const std::string& to) {
-  const std::filesystem::path from = std::filesystem::path(ODOSPLAT_SHARED_DATA) / name;
+  const std::filesystem::path from = std::filesystem::path(shared_data()) / name;
   if (!std::filesystem::exists(from)) return false;
   std::filesystem::create_directories(std::filesystem::path(to).parent_path());
   std::filesystem::copy(from, to, std::filesystem::copy_options::recursive);
@@ -87,6 +88,6 @@ inline bool copy_shared(const std::string& name, const std::string& to) {
 }  // namespace odosplat::test
 
 /// Path of a shared data set, or skips the test.
-#define SHARED_DATA_OR_SKIP(variable, name)                                    \
-  const std::string variable = std::string(ODOSPLAT_SHARED_DATA "/") + (name); \
+#define SHARED_DATA_OR_SKIP(variable, name)                                  \
+  const std::string variable = odosplat::test::shared_data() + "/" + (name); \
   if (!std::filesystem::exists(variable)) GTEST_SKIP() << "no shared data set " << variable

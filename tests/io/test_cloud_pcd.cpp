@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cloud_checks.hpp"
+#include "locations.hpp"
 
 namespace odosplat {
 namespace {
@@ -73,7 +74,7 @@ TEST(CloudPcd, OfEveryEncoding) {
 
 // Written by the public LZF library (liblzf through python-lzf), not by the compressor of these tests.
 TEST(CloudPcd, CompressedByOthersIsRead) {
-  const std::string corpus = ODOSPLAT_SOURCE_DIR "/tests/fuzz/corpus/pcd/";
+  const std::string corpus = test::source_dir() + "/tests/fuzz/corpus/pcd/";
   const PointCloud plain = read_point_cloud(corpus + "binary.pcd");
   const PointCloud packed = read_point_cloud(corpus + "compressed.pcd");
   ASSERT_EQ(plain.size(), 40U);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fuzz/entries.hpp"
+#include "locations.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
@@ -28,7 +29,7 @@ class Corpus : public testing::TestWithParam<Target> {
 TEST_P(Corpus, EverySeedAndEveryCutOfItIsReadOrRefused) {
   int seeds = 0;
   for (const auto& file :
-       std::filesystem::directory_iterator(std::string(ODOSPLAT_SOURCE_DIR "/tests/fuzz/corpus/") + GetParam().name)) {
+       std::filesystem::directory_iterator(test::source_dir() + "/tests/fuzz/corpus/" + GetParam().name)) {
     const std::string bytes = read_file(file.path().string());
     SCOPED_TRACE(file.path().string());
     GetParam().entry(bytes);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
+#include "locations.hpp"
 #include "odosplat/io/trajectory_file.hpp"
 
 #include <gmock/gmock.h>
@@ -154,7 +155,7 @@ class EvoTrajectory : public testing::TestWithParam<EvoFile> {};
 TEST_P(EvoTrajectory, IsRead) {
   SHARED_DATA_OR_SKIP(path, std::string("evo/") + GetParam().name);
   const bool kitti = std::string(GetParam().name).starts_with("KITTI");
-  const Trajectory t = read_trajectory(path, kitti ? ODOSPLAT_SHARED_DATA "/evo/KITTI_00_gt_times.txt" : "");
+  const Trajectory t = read_trajectory(path, kitti ? test::shared_data() + "/evo/KITTI_00_gt_times.txt" : "");
   EXPECT_EQ(t.size(), GetParam().poses);
   EXPECT_EQ(t.front().time_text, GetParam().first_stamp);
 }

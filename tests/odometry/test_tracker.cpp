@@ -48,7 +48,7 @@ TEST_F(TrackerTest, PointsOfOtherKeyframesAreEnoughToTrackBy) {
   TrackingReference projected;
   projected.cameras = host_.cameras;
   projected.levels.resize(host_.gray.size());
-  std::vector<ProjectedPoint> seen;
+  std::vector<TransferredPoint> seen;
   for (int y = 8; y < camera_.height - 8; y += 4) {
     for (int x = 8; x < camera_.width - 8; x += 4) {
       const auto q = static_cast<float>(1.0 / room_.depth(camera_, T_world_host_, x, y));

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fuzz/entries.hpp"
+#include "locations.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
 namespace odosplat {
@@ -14,7 +15,7 @@ namespace {
 
 TEST(GaussianCorpus, EverySeedAndEveryCutOfItIsReadOrRefused) {
   int seeds = 0;
-  for (const auto& file : std::filesystem::directory_iterator(ODOSPLAT_SOURCE_DIR "/tests/fuzz/corpus/gaussians")) {
+  for (const auto& file : std::filesystem::directory_iterator(test::source_dir() + "/tests/fuzz/corpus/gaussians")) {
     const std::string bytes = read_file(file.path().string());
     SCOPED_TRACE(file.path().string());
     fuzz::gaussians(bytes);
