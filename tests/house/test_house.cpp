@@ -2,8 +2,11 @@
 // Copyright 2026 The odosplat authors
 // Who may depend on whom: the link lines of CMake and every include, held against the one table below. CONTRIBUTING.md
 // shows the same table to people.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -111,6 +114,82 @@ TEST(House, LinksKeepToTheTable) {
     }
   }
   EXPECT_EQ(libraries, static_cast<int>(house.size()) - 1) << "every room but kernels is declared there";
+}
+
+// The text without comments, strings and characters, which may hold braces and words.
+std::string bare(const std::string& text) {
+  std::string kept;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto starts = [&](const char* word) { return text.compare(i, std::strlen(word), word) == 0; };
+    std::size_t last = std::string::npos;  // of what is left out
+    if (starts("//")) {
+      last = text.find('\n', i);
+    } else if (starts("/*")) {
+      last = text.find("*/", i + 2) + 1;
+    } else if (starts("R\"")) {
+      const std::string mark = text.substr(i + 2, text.find('(', i) - i - 2);
+      last = text.find(")" + mark + "\"", i) + mark.size() + 1;
+    } else if (text[i] == '"' || (text[i] == '\'' && (i == 0 || std::isalnum(text[i - 1]) == 0))) {
+      for (last = i + 1; last < text.size() && text[last] != text[i]; ++last) last += text[last] == '\\' ? 1 : 0;
+    } else {
+      kept += text[i];
+      continue;
+    }
+    kept += ' ';
+    if (last >= text.size()) break;
+    i = last;
+  }
+  return kept;
+}
+
+// Names, with their namespaces, of the types that a file defines outside functions, types and unnamed namespaces.
+std::vector<std::string> types_defined_in(const std::string& text) {
+  static const std::regex token(
+      R"re(\bnamespace\s*([\w:]*)\s*\{|\b(?:struct|class|enum class|enum|union)\s+(?:alignas\([^)]*\)\s*)?([\w:]+)[^;{}()=<>]*(?:<[^;{}()]*)?\{|\{|\})re");
+  std::vector<std::string> scopes;  // "" where types are not counted
+  std::vector<std::string> found;
+  const std::string code = bare(text);
+  for (std::sregex_iterator it(code.begin(), code.end(), token), end; it != end; ++it) {
+    const std::string whole = it->str();
+    if (whole == "}") {
+      if (!scopes.empty()) scopes.pop_back();
+      continue;
+    }
+    std::string path;
+    bool counted = true;
+    for (const std::string& scope : scopes) {
+      counted = counted && !scope.empty();
+      path += scope + "::";
+    }
+    if ((*it)[2].matched && counted && !scopes.empty()) found.push_back(path + it->str(2));
+    scopes.push_back((*it)[1].matched ? it->str(1) : "");
+  }
+  return found;
+}
+
+TEST(House, FindsTypesOnlyWhereTheyAreDefinedForAll) {
+  EXPECT_THAT(
+      types_defined_in(
+          "struct Outside {}; namespace a::b { // struct No {\n struct alignas(64) One : Base<int> { struct In {}; };"
+          "template <class Row> void f(Row) { struct Local {}; } class Two; enum class Three { x };"
+          "namespace { struct Four {}; } const char* text = \"struct Five {\"; class Six final {}; }"),
+      testing::ElementsAre("a::b::One", "a::b::Three", "a::b::Six"));
+}
+
+// Two types of one name in one program are undefined behavior, whichever libraries they are in.
+TEST(House, TypeNamesAreUnique) {
+  std::map<std::string, std::string> places;
+  for (const char* folder : {"kernels", "lib", "viewer", "apps"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".cpp" && extension != ".hpp") continue;
+      for (const std::string& name : types_defined_in(text_of(entry.path()))) {
+        const auto [place, added] = places.emplace(name, entry.path().string());
+        EXPECT_TRUE(added) << name << " is defined in " << place->second << " and in " << entry.path();
+      }
+    }
+  }
+  EXPECT_GT(places.size(), 300U);
 }
 
 TEST(House, EveryFolderOfLibIsInTheTable) {
