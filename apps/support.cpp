@@ -12,6 +12,7 @@
 #include <exception>
 
 #include "odosplat/compute/device.hpp"
+#include "odosplat/compute/program.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/parallel.hpp"
@@ -80,6 +81,7 @@ compute::Context open_device(const Common& common) {
   compute::Context context = compute::Context::open(common.device);
   context.set_profiling(common.profile);
   log_info("device " + context.device().name + " (" + context.device().platform + ")");
+  if (const std::string fault = compute::program_cache_fault(); !fault.empty()) log_warning(fault);
   return context;
 }
 
