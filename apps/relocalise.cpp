@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "json_text.hpp"
 #include "map_views.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/progress.hpp"
@@ -186,7 +187,7 @@ void run(const Common& common, const RelocaliseJob& job) {
                               {"cpu_seconds", json_of(s.cpu_seconds)},
                               {"rows", nlohmann::ordered_json::array()}};
   for (const Row& row : rows) json["rows"].push_back(json_of(row));
-  write_file_atomically(job.json, json.dump(2) + "\n");
+  write_file_atomically(job.json, json_text(json));
 }
 
 }  // namespace

@@ -48,7 +48,9 @@ std::string stem_of(const std::string& name) {
 
 bool is_temporary_name(std::string_view entry, const std::string& stem) {
   const std::size_t at = entry.rfind(mark);
-  if (at == std::string_view::npos || (!stem.empty() && entry.substr(0, at) != stem)) return false;
+  if (at == std::string_view::npos) return false;
+  const std::string_view output = entry.substr(0, at);
+  if (!stem.empty() && output != stem && !output.starts_with(stem + ".")) return false;
   std::string_view rest = entry.substr(at + mark.size());
   if (rest.size() < digits + ending.size()) return false;
   const bool random = std::all_of(rest.begin(), rest.begin() + digits,

@@ -205,6 +205,7 @@ class Leftovers : public testing::Test {
 
 TEST_F(Leftovers, OfAnOutputGoWhenItIsWrittenAgain) {
   temp_.put(name_, "half");
+  temp_.put("map.ply.checkpoint.odosplat-0123456789abcdef.part", "half");
   temp_.put("clip.avi.odosplat-0123456789abcdef.part.avi", "half");
   temp_.put("other" + name_, "half");
   ensure_output_file(temp_ / "map.ply");
