@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmark/checksum.hpp"
+#include "json_text.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/convention_check.hpp"
 #include "odosplat/eval/texture.hpp"
@@ -83,7 +84,7 @@ void write_json(const std::string& file, const Sequence& sequence, const Convent
                                     {"texture_share", texture.share},
                                     {"texture_bare_blocks", texture.bare_blocks},
                                     {"checksum", checksum_of(sequence)}};
-  write_file_atomically(file, json.dump(2) + "\n");
+  write_file_atomically(file, json_text(json));
 }
 
 void run(SequenceFlags flags, const ConventionOptions& options, const std::string& json) {

@@ -5,6 +5,7 @@
 
 #include "cloud_files.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/cloud_file.hpp"
@@ -33,14 +34,30 @@ void add_frames(const Sequence& sequence, const CloudFlags& flags, CloudBuilder&
   const std::vector<std::size_t> frames = posed_frames(sequence, flags.every, range);
   Progress progress("cloud " + sequence.name(), static_cast<long>(frames.size()));
   long done = 0;
+  std::size_t unreadable = 0;
+  std::string first_fault;
   for (const std::size_t i : frames) {
     if (interrupted()) throw Interrupted();
     if (sequence.has_depth(i) && sequence.T_world_depth(i)) {
-      builder.add(sequence.depth(i), sequence.color(i), sequence.camera(), *sequence.T_world_depth(i));
+      DepthImage depth;
+      ColorImage color;
+      try {
+        depth = sequence.depth(i);
+        color = sequence.color(i);
+      } catch (const InputError& e) {  // one damaged file of many
+        if (unreadable++ == 0) first_fault = e.what();
+        depth.release();
+      }
+      if (!depth.empty()) builder.add(depth, color, sequence.camera(), *sequence.T_world_depth(i));
     }
     progress.update(++done, std::to_string(builder.voxels()) + " points");
   }
   progress.finish();
+  if (unreadable == 0) return;
+  const std::string share = std::to_string(unreadable) + " of " + std::to_string(frames.size()) +
+                            " frames cannot be read, such as " + first_fault;
+  if (unreadable == frames.size()) throw InputError(share);
+  log_warning(share + "; they are left out");
 }
 
 PointCloud cloud_of_sequences(const CloudFlags& flags) {

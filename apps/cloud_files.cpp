@@ -13,12 +13,17 @@
 namespace odosplat::apps {
 
 PointCloud read_thinned(const std::vector<std::string>& files, double voxel, const Eigen::Vector3d& origin) {
+  constexpr double report_every = 2.0;  // [s]
   CloudThinner thinner(voxel, origin);
   std::string names;
+  Stopwatch since_report;
   for (const std::string& file : files) {
     scan_cloud(file, [&](const CloudBatch& batch) {
       if (interrupted()) throw Interrupted();
       thinner.add(batch);
+      if (since_report.seconds() < report_every) return;
+      log_info(file + ": " + std::to_string(thinner.points()) + " points read");
+      since_report = Stopwatch();
     });
     names += (names.empty() ? "" : ", ") + file;
   }

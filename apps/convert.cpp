@@ -8,6 +8,7 @@
 
 #include "cloud_files.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/cloud_file.hpp"
 #include "odosplat/splat/map_file.hpp"
@@ -30,12 +31,14 @@ std::string extension_of(const std::string& path) {
 
 void convert_map(const ConvertFlags& flags) {
   const Gaussians gaussians = read_map(flags.in);
+  log_info("writing " + std::to_string(gaussians.size()) + " Gaussians");
   write_map(flags.out, gaussians, read_map_notes(flags.in));
   std::printf("%s: %zu Gaussians\n", flags.out.c_str(), gaussians.size());
 }
 
 void convert_cloud(const ConvertFlags& flags) {
   const PointCloud cloud = read_point_cloud(flags.in);
+  log_info("writing " + std::to_string(cloud.size()) + " points");
   write_point_cloud(flags.out, cloud);
   std::printf("%s: %zu points\n", flags.out.c_str(), cloud.size());
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
 #include "odosplat/compute/device.hpp"
 #include "support.hpp"
 
@@ -46,7 +47,7 @@ void print_json(const std::vector<compute::DeviceInfo>& devices, int chosen) {
                     {"refusal", d.refusal},
                     {"chosen", d.index == chosen}});
   }
-  std::puts(list.dump(2).c_str());
+  std::fputs(json_text(list).c_str(), stdout);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/evaluate.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -55,7 +56,7 @@ void run(EvalFlags& flags) {
                                     {"coverage", result.coverage},
                                     {"alignment", flags.alignment},
                                     {"scale", result.truth_from_estimate.scale}};
-  write_file_atomically(flags.json, json.dump(2) + "\n");
+  write_file_atomically(flags.json, json_text(json));
 }
 
 }  // namespace

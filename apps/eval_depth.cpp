@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/eval/image_metrics.hpp"
@@ -130,7 +131,7 @@ void add_eval_depth(CLI::App& app, Common& common) {
     // JSON has no NaN: null says that the map has no colour.
     json["psnr_db"] = std::isfinite(o.psnr_db) ? nlohmann::ordered_json(o.psnr_db) : nullptr;
     json["ssim"] = std::isfinite(o.ssim) ? nlohmann::ordered_json(o.ssim) : nullptr;
-    write_file_atomically(job->json, json.dump(2) + "\n");
+    write_file_atomically(job->json, json_text(json));
   });
 }
 

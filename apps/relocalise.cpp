@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "json_text.hpp"
 #include "map_views.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/eval/statistics.hpp"
@@ -153,6 +155,7 @@ void run(const Common& common, const RelocaliseJob& job) {
   const std::vector<SE3> places = places_of(job.map, job.places);
   OpenedView opened = open_view(common, job.method, job.map);
   if (opened.sensor != nullptr) throw InputError("--method", "rgbd has no map to be found in");
+  log_info("rendering the map from " + std::to_string(places.size()) + " places");
   const Stopwatch watch;
   Relocalizer relocalizer(sequence.camera(), *opened.view, places);
   const std::size_t kept = relocalizer.prepare();
@@ -186,7 +189,7 @@ void run(const Common& common, const RelocaliseJob& job) {
                               {"cpu_seconds", json_of(s.cpu_seconds)},
                               {"rows", nlohmann::ordered_json::array()}};
   for (const Row& row : rows) json["rows"].push_back(json_of(row));
-  write_file_atomically(job.json, json.dump(2) + "\n");
+  write_file_atomically(job.json, json_text(json));
 }
 
 }  // namespace

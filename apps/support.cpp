@@ -2,16 +2,21 @@
 // Copyright 2026 The odosplat authors
 #include "support.hpp"
 
+#include <semaphore.h>
 #include <sys/resource.h>
 
 #include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <exception>
+#include <thread>
 
 #include "odosplat/compute/device.hpp"
+#include "odosplat/compute/program.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/parallel.hpp"
@@ -20,13 +25,33 @@ namespace odosplat::apps {
 namespace {
 
 std::atomic<bool> interrupt_flag{false};
+std::atomic<int> savers{0};
+sem_t interrupt_came;
 
 constexpr int exit_internal = 1;
 constexpr int exit_bad_input = 2;
 constexpr int exit_interrupted = 130;
 
-extern "C" void on_interrupt(int) {
-  if (interrupt_flag.exchange(true)) std::_Exit(exit_interrupted);
+extern "C" void on_interrupt(int signal) {
+  if (!interrupt_flag.exchange(true)) {
+    sem_post(&interrupt_came);
+  } else if (signal != SIGHUP) {  // which comes several times when a terminal closes
+    std::_Exit(exit_interrupted);
+  }
+}
+
+/// Ends what has not ended by itself: reading a large file or drawing a figure knows nothing of signals.
+void end_when_interrupted() {
+  constexpr auto patience = std::chrono::milliseconds(700);
+  constexpr auto step = std::chrono::milliseconds(20);
+  while (sem_wait(&interrupt_came) != 0 && errno == EINTR) {
+  }
+  for (auto waited = step; waited < patience; waited += step) {
+    std::this_thread::sleep_for(step);
+    if (savers > 0) waited = step;
+  }
+  std::fprintf(stderr, "odosplat: %s\n", Interrupted().what());
+  std::_Exit(exit_interrupted);
 }
 
 int fail(int code, const char* what) {
@@ -60,6 +85,8 @@ int run_program(CLI::App& app, int argc, char** argv) {
   catch_interrupts();
   try {
     app.parse(argc, argv);
+    // Whatever was written is whole; but whoever runs a list of commands wants that to stop, too.
+    if (interrupted()) throw Interrupted();
     return 0;
   } catch (const CLI::Success& e) {  // --help, --version
     return app.exit(e);
@@ -80,6 +107,7 @@ compute::Context open_device(const Common& common) {
   compute::Context context = compute::Context::open(common.device);
   context.set_profiling(common.profile);
   log_info("device " + context.device().name + " (" + context.device().platform + ")");
+  if (const std::string fault = compute::program_cache_fault(); !fault.empty()) log_warning(fault);
   return context;
 }
 
@@ -97,11 +125,17 @@ void print_profile(const Common& common, const compute::Context& context) {
 }
 
 void catch_interrupts() {
+  sem_init(&interrupt_came, 0, 0);
+  std::thread(end_when_interrupted).detach();
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  if (std::signal(SIGHUP, SIG_IGN) != SIG_IGN) std::signal(SIGHUP, on_interrupt);
 }
 
 bool interrupted() { return interrupt_flag; }
+
+SavesWhenInterrupted::SavesWhenInterrupted() { ++savers; }
+SavesWhenInterrupted::~SavesWhenInterrupted() { --savers; }
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 

@@ -24,9 +24,20 @@ compute::Context open_device(const Common& common);
 /// With --profile: time of every stage and its kernels since the context was opened, on standard error.
 void print_profile(const Common& common, const compute::Context& context);
 
-/// Ctrl-C and SIGTERM set a flag; long loops ask it. A second one ends the process at once.
+/// Ctrl-C, SIGTERM and the end of the terminal (SIGHUP, unless it is ignored as under nohup) set a flag; long loops ask
+/// it. Outputs appear whole or not at all, so whatever has not ended 0.7 s later is ended here, with status 130, unless
+/// a SavesWhenInterrupted lives. A second Ctrl-C or SIGTERM ends the process at once.
 void catch_interrupts();
 bool interrupted();
+
+/// Lives while a command asks interrupted() often and then writes what it has so far.
+class SavesWhenInterrupted {
+ public:
+  SavesWhenInterrupted();
+  ~SavesWhenInterrupted();
+  SavesWhenInterrupted(const SavesWhenInterrupted&) = delete;
+  SavesWhenInterrupted& operator=(const SavesWhenInterrupted&) = delete;
+};
 
 /// Largest resident size of this process so far [MB].
 double peak_memory_mb();

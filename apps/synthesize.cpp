@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/cloud_file.hpp"
 #include "odosplat/map/cloud_filters.hpp"
@@ -118,6 +119,7 @@ void write_cloud(const SynthesizeFlags& flags, const SceneDescription& descripti
   lidar.seed = flags.seed;
   const std::vector<SE3> places = scan_poses(description);
   if (places.empty()) throw InputError(description.name, "lidar", "has no places to scan from");
+  log_info("scanning " + description.name + " from " + std::to_string(places.size()) + " places");
   const PointCloud cloud = voxel_downsample(simulate_lidar(scene, places, lidar), flags.voxel);
   write_point_cloud(flags.cloud, cloud);
   std::printf("%s: %zu points from %zu scans\n", flags.cloud.c_str(), cloud.size(), places.size());

@@ -41,11 +41,37 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence, const FrameRange& 
   throw InputError(sequence.name(), "it has no true pose to start from; give --start \"tx ty tz qx qy qz qw\"");
 }
 
+/// Shows the frame's depth to a sensor's view, which a keyframe that is made later must still see; null for maps.
+std::shared_ptr<SensorView> sensor_view_of(OpenedView& opened, const Sequence& sequence, std::size_t i) {
+  if (opened.sensor == nullptr) return nullptr;
+  opened.show_frame(sequence, i);
+  return std::make_shared<SensorView>(*opened.sensor);
+}
+
+/// The range without the frames at its begin that cannot be read, which are recorded as lost: the start pose is that of
+/// the first image that is tracked. InputError if no frame can be read.
+FrameRange readable_range(const Sequence& sequence, FrameRange range, OpenedView& opened, TrackRecord& record) {
+  for (; range.begin < range.end; ++range.begin) {
+    if (interrupted()) throw Interrupted();
+    try {
+      sensor_view_of(opened, sequence, range.begin);
+      sequence.gray(range.begin);
+      return range;
+    } catch (const InputError& e) {
+      record.add_unreadable(sequence, range.begin, e.what());
+    }
+  }
+  throw InputError("none of the " + std::to_string(record.unreadable()) +
+                   " frames can be read: " + record.first_fault());
+}
+
 /// A run in the making: what the two ways of playing a sequence share.
 class Run {
  public:
-  Run(const Sequence& sequence, const FrameRange& range, OpenedView& opened, Odometry& odometry, TrackRecord& record)
-      : sequence_(sequence),
+  Run(const TrackJob& job, const Sequence& sequence, const FrameRange& range, OpenedView& opened, Odometry& odometry,
+      TrackRecord& record)
+      : job_(job),
+        sequence_(sequence),
         range_(range),
         opened_(opened),
         odometry_(odometry),
@@ -66,33 +92,72 @@ class Run {
   /// At the sequence's own rate: frames that are no longer the newest are dropped.
   bool play_in_real_time() {
     Playback playback(sequence_, range_);
-    while (const std::optional<std::size_t> i = playback.next()) {
-      if (interrupted()) return false;
+    while (const std::optional<std::size_t> i = playback.next([this] {
+      write_now_and_then();
+      return interrupted();
+    })) {
       record_.drop(playback.dropped());
       track(*i);
     }
+    if (interrupted()) return false;
     odometry_.finish();
     progress_.finish();
     return true;
   }
 
- private:
-  void track(std::size_t i) {
-    std::shared_ptr<SensorView> view;
-    if (opened_.sensor != nullptr) {
-      // A keyframe that is made later must see the depth of its own frame.
-      opened_.show_frame(sequence_, i);
-      view = std::make_shared<SensorView>(*opened_.sensor);
-    }
-    const TrackResult result = odometry_.track(reader_.take(i), sequence_.time(i), view);
-    record_.add(sequence_, i, result);
-    const OdometryStatistics s = odometry_.statistics();
-    std::string words = to_string(result.status) + "  " + std::to_string(s.keyframes) + " keyframes  " +
-                        std::to_string(s.lost) + " lost";
-    if (record_.dropped() > 0) words += "  " + std::to_string(record_.dropped()) + " dropped";
-    progress_.update(static_cast<long>(i - range_.begin) + 1, words);
+  /// Writes the results so far, or all of them.
+  TrackOutcome write(bool finished) {
+    const TrackOutcome outcome = record_.outcome(odometry_, cpu_seconds() - cpu_before_);
+    record_.write(job_, outcome, odometry_, opened_.device ? opened_.device->device().name : "none", finished);
+    return outcome;
   }
 
+ private:
+  void track(std::size_t i) {
+    TrackStatus status = TrackStatus::lost;
+    std::shared_ptr<SensorView> view;
+    if (const std::optional<GrayImage> image = read(i, view)) {
+      const TrackResult result = odometry_.track(*image, sequence_.time(i), view);
+      record_.add(sequence_, i, result);
+      status = result.status;
+    }
+    const OdometryStatistics s = odometry_.statistics();
+    std::string words = to_string(status) + "  " + std::to_string(s.keyframes) + " keyframes  " +
+                        std::to_string(s.lost + static_cast<int>(record_.unreadable())) + " lost";
+    if (record_.dropped() > 0) words += "  " + std::to_string(record_.dropped()) + " dropped";
+    progress_.update(static_cast<long>(i - range_.begin) + 1, words);
+    write_now_and_then();
+  }
+
+  /// One file that is damaged is no reason to lose the others' poses.
+  std::optional<GrayImage> read(std::size_t i, std::shared_ptr<SensorView>& view) {
+    try {
+      view = sensor_view_of(opened_, sequence_, i);
+      return reader_.take(i);
+    } catch (const InputError& e) {
+      record_.add_unreadable(sequence_, i, e.what());
+      return std::nullopt;
+    }
+  }
+
+  /// A run that is killed leaves what it had some seconds before. Long tables are written more rarely.
+  void write_now_and_then() {
+    constexpr double interval = 5.0;
+    constexpr double share = 0.02;  // of the time, for writing
+    if (since_write_.seconds() < next_write_ || record_.tracked() == written_) return;
+    written_ = record_.tracked();
+    const Stopwatch watch;
+    try {
+      write(false);
+      next_write_ = std::max(interval, watch.seconds() / share);
+    } catch (const InputError& e) {  // such as a full disk: at the end there may be room
+      log_warning(e.what());
+      next_write_ *= 4.0;
+    }
+    since_write_ = Stopwatch();
+  }
+
+  const TrackJob& job_;
   const Sequence& sequence_;
   const FrameRange range_;
   OpenedView& opened_;
@@ -100,6 +165,10 @@ class Run {
   TrackRecord& record_;
   FrameReader reader_;
   Progress progress_;
+  const double cpu_before_ = cpu_seconds();
+  Stopwatch since_write_;
+  double next_write_ = 5.0;  // [s] after the last time
+  std::size_t written_ = 0;  // frames tracked when it was written
 };
 
 }  // namespace
@@ -141,6 +210,16 @@ std::unique_ptr<Odometry> start_odometry(const TrackJob& job, const Sequence& se
   return odometry;
 }
 
+/// Before an error is passed on: it is the error that is to be told, not that this fails too.
+void write_what_there_is(Run& run, const TrackRecord& record) {
+  if (record.tracked() == 0) return;
+  try {
+    run.write(false);
+  } catch (const std::exception& e) {
+    log_warning(e.what());
+  }
+}
+
 }  // namespace
 
 TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
@@ -153,16 +232,24 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
     throw InputError("--frames", "is " + job.frames + ", the sequence has " + std::to_string(sequence.size()));
   OpenedView opened = open_view(common, job.method, job.map, {job.depth_noise.model, job.seed});
   const auto relocalizer = make_relocalizer(job, sequence.camera(), *opened.view, opened.sensor != nullptr);
-  const auto started = start_odometry(job, sequence, range, opened, relocalizer.get());
-  Odometry& odometry = *started;
   TrackRecord record;
-  const double cpu_before = cpu_seconds();
-  const bool played = [&] {
-    Run run(sequence, range, opened, odometry, record);
-    return job.realtime ? run.play_in_real_time() : run.play();
-  }();
-  const TrackOutcome outcome = record.outcome(odometry, cpu_seconds() - cpu_before);
-  record.write(job, outcome, odometry, opened.device ? opened.device->device().name : "none");
+  range = readable_range(sequence, range, opened, record);
+  const auto started = start_odometry(job, sequence, range, opened, relocalizer.get());
+  const SavesWhenInterrupted saves;
+  Run run(job, sequence, range, opened, *started, record);
+  bool played = false;
+  try {
+    played = job.realtime ? run.play_in_real_time() : run.play();
+  } catch (...) {
+    write_what_there_is(run, record);
+    throw;
+  }
+  if (!played && record.tracked() == 0) throw Interrupted();  // an earlier run's results are worth more than none
+  const TrackOutcome outcome = run.write(played);
+  if (record.unreadable() > 0) {
+    log_warning(std::to_string(record.unreadable()) + " of " + std::to_string(outcome.frames) +
+                " frames cannot be read and count as lost; status.csv has the reasons");
+  }
   if (opened.device) print_profile(common, *opened.device);
   if (!played) throw Interrupted();
   return outcome;

@@ -47,7 +47,10 @@ std::unique_ptr<Relocalizer> make_relocalizer(const TrackJob& job, const Camera&
 OdometryOptions odometry_options(const TrackJob& job);
 
 /// Tracks a sequence in a map and writes trajectory.txt, trajectory_live.txt, status.csv, covariance.csv and
-/// report.json to the folder `out`. After Ctrl-C the files hold the frames so far, and Interrupted is thrown.
+/// report.json to the folder `out`. A frame whose files cannot be read is lost, for the reason in status.csv;
+/// InputError if no frame can be read. The files are written every few seconds, and before an error is passed on, so
+/// that a run that ends early leaves the frames so far. After Ctrl-C they hold the frames so far, and Interrupted is
+/// thrown.
 TrackOutcome track_sequence(const Common& common, const TrackJob& job);
 
 }  // namespace odosplat::apps

@@ -6,14 +6,38 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/eval/statistics.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/trajectory_file.hpp"
 
 namespace odosplat::apps {
+namespace {
+
+/// A field of a table: in quotes where a reader would else take it for several, without what moves a cursor.
+std::string csv_field(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';
+  }
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
 
 void TrackRecord::add(const Sequence& sequence, std::size_t i, const TrackResult& result) {
-  rows_.push_back({sequence.time(i), sequence.time_text(i), result});
+  rows_.push_back({sequence.time(i), sequence.time_text(i), result, ""});
+}
+
+void TrackRecord::add_unreadable(const Sequence& sequence, std::size_t i, const std::string& reason) {
+  if (unreadable_++ == 0) {
+    first_fault_ = reason;
+    log_warning("frame " + std::to_string(i) + " is lost: " + reason);
+  }
+  rows_.push_back({sequence.time(i), sequence.time_text(i), {}, reason});
 }
 
 TrackOutcome TrackRecord::outcome(const Odometry& odometry, double cpu_seconds) const {
@@ -26,14 +50,16 @@ TrackOutcome TrackRecord::outcome(const Odometry& odometry, double cpu_seconds) 
     pose.time_text = rows_[k].stamp;
   }
   const OdometryStatistics s = odometry.statistics();
-  o.frames = s.frames;
+  o.frames = s.frames + static_cast<int>(unreadable_);
   o.dropped = dropped_;
   o.posed = s.posed;
-  o.lost = s.lost;
+  o.lost = s.lost + static_cast<int>(unreadable_);
   o.relocalisations = s.relocalisations;
   o.keyframes = s.keyframes;
   std::vector<double> sorted;
-  for (const Row& row : rows_) sorted.push_back(row.result.milliseconds);
+  for (const Row& row : rows_) {
+    if (row.reason.empty()) sorted.push_back(row.result.milliseconds);
+  }
   std::sort(sorted.begin(), sorted.end());
   o.median_ms = percentile(sorted, 50.0);
   o.p95_ms = percentile(sorted, 95.0);
@@ -41,8 +67,8 @@ TrackOutcome TrackRecord::outcome(const Odometry& odometry, double cpu_seconds) 
   return o;
 }
 
-void TrackRecord::write(const TrackJob& job, const TrackOutcome& o, const Odometry& odometry,
-                        const std::string& device) const {
+void TrackRecord::write(const TrackJob& job, const TrackOutcome& o, const Odometry& odometry, const std::string& device,
+                        bool finished) const {
   const OdometryStatistics s = odometry.statistics();
   nlohmann::ordered_json stages = nlohmann::ordered_json::object();
   for (const StageTime& stage : s.stages) stages[stage.name] = stage.milliseconds;
@@ -50,6 +76,7 @@ void TrackRecord::write(const TrackJob& job, const TrackOutcome& o, const Odomet
                                 {"frames", o.frames},
                                 {"posed", o.posed},
                                 {"lost", o.lost},
+                                {"unreadable", unreadable_},
                                 {"relocalisations", o.relocalisations},
                                 {"keyframes", o.keyframes},
                                 {"ms_per_frame", {{"median", o.median_ms}, {"p95", o.p95_ms}}},
@@ -58,28 +85,30 @@ void TrackRecord::write(const TrackJob& job, const TrackOutcome& o, const Odomet
                                 {"peak_memory_mb", peak_memory_mb()},
                                 {"device", device},
                                 {"seed", job.seed},
-                                {"version", ODOSPLAT_VERSION}};
+                                {"version", ODOSPLAT_VERSION},
+                                {"finished", finished}};
   if (job.realtime) report["realtime"] = {{"dropped", o.dropped}, {"prefetched", s.prefetched}};
   Trajectory live;
   for (const Row& row : rows_) {
     if (row.result.status != TrackStatus::lost) live.push_back({row.time, row.result.T_world_camera, row.stamp});
   }
-  write_trajectory(job.out + "/trajectory.txt", o.trajectory);
-  write_trajectory(job.out + "/trajectory_live.txt", live);
-  write_file_atomically(job.out + "/status.csv", status_table(odometry.keyframe_times()));
-  write_file_atomically(job.out + "/covariance.csv", covariance_table());
-  write_file_atomically(job.out + "/report.json", report.dump(2) + "\n");
+  const Durability durability = finished ? Durability::synced : Durability::fast;
+  write_trajectory(job.out + "/trajectory.txt", o.trajectory, durability);
+  write_trajectory(job.out + "/trajectory_live.txt", live, durability);
+  write_file_atomically(job.out + "/status.csv", status_table(odometry.keyframe_times()), durability);
+  write_file_atomically(job.out + "/covariance.csv", covariance_table(), durability);
+  write_file_atomically(job.out + "/report.json", json_text(report), durability);
 }
 
 std::string TrackRecord::status_table(const std::vector<double>& keyframe_times) const {
-  std::string table = "time,status,keyframe,inlier_share,milliseconds,map_share,in_map\n";
+  std::string table = "time,status,keyframe,inlier_share,milliseconds,map_share,in_map,reason\n";
   for (const Row& row : rows_) {
     const bool keyframe = std::binary_search(keyframe_times.begin(), keyframe_times.end(), row.time);
     char line[160];
-    std::snprintf(line, sizeof(line), ",%s,%d,%.4f,%.3f,%.4f,%d\n", to_string(row.result.status).c_str(),
+    std::snprintf(line, sizeof(line), ",%s,%d,%.4f,%.3f,%.4f,%d,", to_string(row.result.status).c_str(),
                   keyframe ? 1 : 0, row.result.inlier_share, row.result.milliseconds, row.result.map_share,
                   row.result.in_map ? 1 : 0);
-    table += row.stamp + line;
+    table += row.stamp + line + csv_field(row.reason) + "\n";
   }
   return table;
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cloud_files.hpp"
+#include "json_text.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
@@ -99,7 +100,7 @@ void write_report(const TrainJob& job, const TrainingReport& report, const compu
     for (const compute::StageTime& stage : device.stage_times())
       stages[stage.stage] = stage.milliseconds / std::max(1, report.iterations);
   }
-  write_file_atomically(job.report, json.dump(2) + "\n");
+  write_file_atomically(job.report, json_text(json));
 }
 
 std::string checkpoint_file(const TrainJob& job) { return job.out + ".checkpoint"; }
@@ -178,6 +179,7 @@ TrainingReport train_map(const Common& common, const TrainJob& job) {
   log_info("training " + std::to_string(start.size()) + " Gaussians on " + std::to_string(views.count()) + " images");
   Trainer trainer(device, options, start, views, surface.get());
   take_up(job, trainer);
+  const SavesWhenInterrupted saves;
   run(job, trainer);
   const TrainingReport report = trainer.report();
   // After Ctrl-C nobody wants to wait for the calibration.

@@ -6,6 +6,7 @@
 
 #include "map_views.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/eval/evaluate.hpp"
 #include "odosplat/io/camera_file.hpp"
 #include "odosplat/io/trajectory_file.hpp"
@@ -34,6 +35,7 @@ void run_map(const MapViewFlags& flags) {
   if (!flags.poses.empty()) figure.cameras = read_trajectory(flags.poses);
   if (!flags.camera.empty()) figure.camera = read_camera_file(flags.camera).camera;
   figure.title = flags.title;
+  log_info("drawing " + std::to_string(figure.map.cloud.size()) + " points");
   save_picture(flags.output, draw_map(figure));
 }
 
@@ -61,6 +63,7 @@ void run_trajectory(const TrajectoryViewFlags& flags) {
   if (!flags.truth.empty()) figure.truth = read_trajectory(flags.truth);
   figure.title = flags.title;
   if (figure.title.empty() && !figure.truth.empty()) figure.title = error_title(figure.estimate, figure.truth);
+  log_info("drawing " + std::to_string(figure.map.cloud.size()) + " points");
   save_picture(flags.output, draw_trajectory(figure));
 }
 

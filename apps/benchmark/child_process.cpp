@@ -2,7 +2,6 @@
 // Copyright 2026 The odosplat authors
 #include "child_process.hpp"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -10,60 +9,94 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 #include <thread>
+
+#include "foreign_text.hpp"
+#include "process_tree.hpp"
 
 namespace odosplat::apps {
 namespace {
 
 constexpr int exit_not_found = 127;  // as a shell has it
 
-/// Resident size of all processes of a group [MB].
-double group_memory_mb(pid_t group) {
-  double total = 0.0;
-  DIR* folder = opendir("/proc");
-  if (folder == nullptr) return 0.0;
-  const double page_mb = static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0;
-  while (const dirent* entry = readdir(folder)) {
-    if (std::isdigit(static_cast<unsigned char>(entry->d_name[0])) == 0) continue;
-    std::ifstream file(std::string("/proc/") + entry->d_name + "/stat");
-    std::string line;
-    if (!std::getline(file, line)) continue;
-    // The name, in brackets, may hold anything; behind it: state, parent, group, ..., resident pages as 24th field.
-    const auto close = line.rfind(')');
-    if (close == std::string::npos) continue;
-    long parent = 0;
-    long own_group = 0;
-    long resident = 0;
-    const int found = std::sscanf(line.c_str() + close + 1,
-                                  " %*c %ld %ld %*d %*d %*d %*u %*u %*u %*u %*u %*u %*u %*d %*d %*d %*d %*d %*d %*u "
-                                  "%*u %ld",
-                                  &parent, &own_group, &resident);
-    if (found == 3 && own_group == group) total += static_cast<double>(resident) * page_mb;
-  }
-  closedir(folder);
-  return total;
+// The program runs below a process of ours that adopts whatever it leaves behind (PR_SET_CHILD_SUBREAPER), so that its
+// children are found whatever session they move to, and that kills all of them when the program or the runner ends. The
+// functions below run in that process. It is not replaced by another program: the C library makes memory usable after
+// fork(), and nothing else is needed that a thread of the runner may have held.
+
+/// The log, on standard output and error; nothing else of the runner's stays open.
+bool connect(const char* log) {
+  const int nothing = open("/dev/null", O_RDONLY);
+  ::unlink(log);
+  const int file = open(log, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0666);
+  if (nothing < 0 || file < 0) return false;
+  dup2(nothing, 0);
+  dup2(file, 1);
+  dup2(file, 2);
+  return close_range(3, ~0U, 0) == 0;
 }
 
-/// The last line with words in it, cut to a readable length.
-std::string last_line(const std::string& file) {
-  std::ifstream text(file);
-  std::string line;
-  std::string last;
-  while (std::getline(text, line)) {
-    // A progress bar overwrites its line.
-    line = line.substr(line.rfind('\r') == std::string::npos ? 0 : line.rfind('\r') + 1);
-    if (line.find_first_not_of(" \t") != std::string::npos) last = line;
+/// Ends as the program did, for the runner to see.
+[[noreturn]] void end_like(int status) {
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    std::signal(signal, SIG_DFL);
+    sigset_t all;
+    sigemptyset(&all);
+    sigprocmask(SIG_SETMASK, &all, nullptr);
+    raise(signal);
   }
-  constexpr std::size_t longest = 200;
-  return last.size() > longest ? last.substr(0, longest) + "..." : last;
+  _exit(WIFEXITED(status) ? WEXITSTATUS(status) : exit_not_found);
+}
+
+[[noreturn]] void supervise(pid_t runner, const char* log, char* const* command) {
+  setpgid(0, 0);  // the terminal's Ctrl-C is the runner's to hear
+  sigset_t events;
+  sigset_t before;
+  sigfillset(&events);
+  sigprocmask(SIG_SETMASK, &events, &before);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != runner) _exit(exit_not_found);  // it died before the line above
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  if (!connect(log)) _exit(exit_not_found);
+  const pid_t self = getpid();
+  const pid_t program = fork();
+  if (program == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != self) _exit(exit_not_found);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      if (std::signal(signal, SIG_IGN) != SIG_IGN) std::signal(signal, SIG_DFL);
+    }
+    sigprocmask(SIG_SETMASK, &before, nullptr);
+    execvp(command[0], command);
+    _exit(exit_not_found);
+  }
+  int status = exit_not_found << 8;
+  bool ended = program < 0;
+  sigemptyset(&events);
+  sigaddset(&events, SIGCHLD);
+  sigaddset(&events, SIGTERM);
+  while (!ended) {
+    // SIGTERM: the runner has died.
+    if (sigwaitinfo(&events, nullptr) == SIGTERM) break;
+    int some_status = 0;
+    for (pid_t child = waitpid(-1, &some_status, WNOHANG); child > 0; child = waitpid(-1, &some_status, WNOHANG)) {
+      if (child != program) continue;
+      status = some_status;
+      ended = true;
+    }
+  }
+  kill_descendants(self);
+  while (waitpid(-1, nullptr, WNOHANG) > 0) {
+  }
+  end_like(status);
 }
 
 }  // namespace
@@ -73,43 +106,33 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::s
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  const pid_t parent = getpid();
-  pid_ = fork();
-  if (pid_ < 0) throw std::runtime_error(std::string("no process can be made: ") + std::strerror(errno));
-  if (pid_ == 0) {
-    setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(exit_not_found);  // it died before the line above
-    const rlimit no_core{0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-    const int nothing = open("/dev/null", O_RDONLY);
-    const int file = open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    if (nothing < 0 || file < 0) _exit(exit_not_found);
-    dup2(nothing, 0);
-    dup2(file, 1);
-    dup2(file, 2);
-    execvp(arguments[0], arguments.data());
-    _exit(exit_not_found);
-  }
-  setpgid(pid_, pid_);  // both do it: whoever comes first
+  const pid_t runner = getpid();
+  supervisor_ = fork();
+  if (supervisor_ < 0) throw std::runtime_error(std::string("no process can be made: ") + std::strerror(errno));
+  if (supervisor_ == 0) supervise(runner, log_.c_str(), arguments.data());
 }
 
 ChildProcess::~ChildProcess() {
-  if (pid_ < 0) return;
-  signal_group(SIGKILL);
-  waitpid(pid_, nullptr, 0);
+  if (supervisor_ >= 0) kill_all();
 }
 
 double ChildProcess::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-void ChildProcess::signal_group(int signal) const { kill(-pid_, signal); }
+int ChildProcess::kill_all() {
+  ::kill(supervisor_, SIGTERM);
+  int status = 0;
+  waitpid(supervisor_, &status, 0);
+  supervisor_ = -1;
+  return status;
+}
 
 std::optional<ProcessEnd> ChildProcess::poll() {
   int status = 0;
-  if (waitpid(pid_, &status, WNOHANG) == pid_) return ended(status);
-  const double memory = group_memory_mb(pid_);
+  if (waitpid(supervisor_, &status, WNOHANG) == supervisor_) return ended(status);
+  double memory = 0.0;
+  for (const ProcessEntry& process : descendants(supervisor_)) memory += process.memory_mb;
   peak_memory_mb_ = std::max(peak_memory_mb_, memory);
   // Words without measured values: tables of two runs are to be equal.
   if (memory > limits_.memory_mb) {
@@ -119,30 +142,25 @@ std::optional<ProcessEnd> ChildProcess::poll() {
   } else {
     return std::nullopt;
   }
-  signal_group(SIGKILL);
-  waitpid(pid_, &status, 0);
-  return ended(status);
+  return ended(kill_all());
 }
 
 void ChildProcess::stop(double patience) {
-  signal_group(SIGTERM);
+  signal_descendants(supervisor_, SIGTERM);
   const double until = seconds() + patience;
   int status = 0;
   while (seconds() < until) {
-    if (waitpid(pid_, &status, WNOHANG) == pid_) {
-      pid_ = -1;
+    if (waitpid(supervisor_, &status, WNOHANG) == supervisor_) {
+      supervisor_ = -1;
       return;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  signal_group(SIGKILL);
-  waitpid(pid_, &status, 0);
-  pid_ = -1;
+  kill_all();
 }
 
 ProcessEnd ChildProcess::ended(int status) {
-  signal_group(SIGKILL);  // what it left running
-  pid_ = -1;
+  supervisor_ = -1;
   ProcessEnd end;
   end.seconds = seconds();
   end.peak_memory_mb = peak_memory_mb_;

@@ -13,7 +13,7 @@ namespace odosplat::apps {
 
 struct ProcessLimits {
   double seconds = 7200.0;    // wall time
-  double memory_mb = 8192.0;  // resident, of the process and its children
+  double memory_mb = 8192.0;  // resident, of the process and all below it
 };
 
 struct ProcessEnd {
@@ -22,12 +22,13 @@ struct ProcessEnd {
   double peak_memory_mb = 0.0;  // largest resident size seen
 };
 
-/// A program run beside this one, in a process group of its own, its output going to a file. It is stopped at its
-/// limits, and dies with this process. Linux. Not thread safe.
+/// A program run beside this one, apart from the terminal's Ctrl-C, its output going to a file. It is stopped at its
+/// limits. With it, or with this process however that ends, all its children end, those included that moved to a
+/// session of their own. Linux. Not thread safe.
 class ChildProcess {
  public:
-  /// command: program (looked up in PATH unless it has a slash) and arguments. log: written anew; its folder must
-  /// exist. A program that cannot be run ends with a fault. Throws std::runtime_error if no process can be made.
+  /// command: program (looked up in PATH unless it has a slash) and arguments. log: made anew; its folder must exist. A
+  /// program that cannot be run ends with a fault. Throws std::runtime_error if no process can be made.
   ChildProcess(const std::vector<std::string>& command, const std::string& log, const ProcessLimits& limits);
   /// Kills it if it still runs.
   ~ChildProcess();
@@ -41,11 +42,11 @@ class ChildProcess {
   void stop(double patience);
 
  private:
-  void signal_group(int signal) const;
+  int kill_all();
   double seconds() const;
   ProcessEnd ended(int status);
 
-  pid_t pid_ = -1;
+  pid_t supervisor_ = -1;
   std::string program_;
   std::string log_;
   ProcessLimits limits_;

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "foreign_text.hpp"
+#include "job_outputs.hpp"
 #include "job_runner.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -22,13 +24,47 @@ namespace {
 using Json = nlohmann::json;
 using Faults = std::map<std::string, std::string>;  // of the jobs that have one
 
-Json read_json(const std::string& file) {
-  try {
-    return Json::parse(read_file(file));
-  } catch (const Json::exception& e) {
-    throw InputError(file, std::string("is damaged: ") + e.what());
+/// A file of keys and values, which another program may have written.
+class Report {
+ public:
+  explicit Report(std::string file) : file_(std::move(file)) {
+    json_ = Json::parse(read_file(file_, most_result_bytes), nullptr, false);
+    if (!json_.is_object()) throw InputError(file_, "is damaged: it is no JSON object");
   }
-}
+
+  bool has(const char* key) const { return json_.contains(key); }
+  double number(const char* key, double missing) const { return number_of(json_, key, missing); }
+  /// The same of a count.
+  int count(const char* key, int missing) const {
+    constexpr double most = 1e9;
+    const double value = number(key, missing);
+    if (!(value >= 0.0 && value <= most)) throw InputError(file_, key, "must be a count");
+    return static_cast<int>(value);
+  }
+  /// The number `key` of the object `outer`.
+  double number(const char* outer, const char* key) const {
+    const Json& inner = json_.at(outer);
+    if (!inner.is_object()) throw InputError(file_, outer, "must be an object");
+    return number_of(inner, key, 0.0);
+  }
+  std::string words(const char* key, const std::string& missing = "") const {
+    const auto found = json_.find(key);
+    if (found == json_.end()) return missing;
+    if (!found->is_string()) throw InputError(file_, key, "must be a text");
+    return clean_text(found->get<std::string>());
+  }
+
+ private:
+  double number_of(const Json& json, const char* key, double missing) const {
+    const auto found = json.find(key);
+    if (found == json.end()) return missing;
+    if (!found->is_number()) throw InputError(file_, key, "must be a number");
+    return found->get<double>();
+  }
+
+  std::string file_;
+  Json json_;
+};
 
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
@@ -78,13 +114,13 @@ SequenceFacts sequence_facts(const PlannedSequence& planned, const Faults& fault
     if (const auto fault = faults.find(planned.check_job); fault != faults.end()) {
       facts.convention = "check: " + fault->second;
     } else {
-      const Json check = read_json(planned.check_file);
-      facts.convention = check.value("verdict", "");
-      facts.checksum = check.value("checksum", "");
-      facts.texture = check.value("texture_share", -1.0);
+      const Report check(planned.check_file);
+      facts.convention = check.words("verdict");
+      facts.checksum = check.words("checksum");
+      facts.texture = check.number("texture_share", -1.0);
     }
   } catch (const InputError& e) {
-    facts.fault = e.what();
+    facts.fault = clean_text(e.what());
   }
   return facts;
 }
@@ -98,14 +134,14 @@ MapFacts map_facts(const PlannedMap& planned, const Faults& faults) {
     return facts;
   }
   try {
-    const Json report = read_json(planned.report);
-    facts.gaussians = report.value("gaussians", std::size_t{0});
-    facts.iterations = report.value("iterations", 0);
-    facts.seconds = report.value("seconds", 0.0);
-    facts.psnr_db = report.value("psnr_db", 0.0);
-    facts.peak_memory_mb = report.value("peak_memory_mb", 0.0);
+    const Report report(planned.report);
+    facts.gaussians = static_cast<std::size_t>(report.count("gaussians", 0));
+    facts.iterations = report.count("iterations", 0);
+    facts.seconds = report.number("seconds", 0.0);
+    facts.psnr_db = report.number("psnr_db", 0.0);
+    facts.peak_memory_mb = report.number("peak_memory_mb", 0.0);
   } catch (const InputError& e) {
-    facts.fault = e.what();
+    facts.fault = clean_text(e.what());
   }
   return facts;
 }
@@ -115,17 +151,17 @@ void read_report(const PlannedRun& planned, const JobRecord& record, RunFacts& f
   const std::string file = planned.folder + "/report.json";
   facts.peak_memory_mb = record.peak_memory_mb;
   if (!std::filesystem::exists(file)) return;
-  const Json report = read_json(file);
-  facts.frames = report.value("frames", facts.frames);
-  facts.posed = report.value("posed", facts.posed);
-  facts.lost = report.value("lost", facts.lost);
-  facts.relocalisations = report.value("relocalisations", 0);
-  if (report.contains("ms_per_frame")) {
-    facts.ms_per_frame = report["ms_per_frame"].value("median", 0.0);
-    facts.p95_ms = report["ms_per_frame"].value("p95", 0.0);
+  const Report report(file);
+  facts.frames = report.count("frames", facts.frames);
+  facts.posed = report.count("posed", facts.posed);
+  facts.lost = report.count("lost", std::max(0, facts.frames - facts.posed));
+  facts.relocalisations = report.count("relocalisations", 0);
+  if (report.has("ms_per_frame")) {
+    facts.ms_per_frame = report.number("ms_per_frame", "median");
+    facts.p95_ms = report.number("ms_per_frame", "p95");
   }
-  facts.cpu_ms = report.value("cpu_ms_per_frame", 0.0);
-  facts.peak_memory_mb = report.value("peak_memory_mb", facts.peak_memory_mb);
+  facts.cpu_ms = report.number("cpu_ms_per_frame", 0.0);
+  facts.peak_memory_mb = report.number("peak_memory_mb", facts.peak_memory_mb);
 }
 
 EvalResult judged(const Trajectory& estimate, const Trajectory& truth, TrajectoryAlignment alignment) {
@@ -163,7 +199,7 @@ RunFacts run_facts(const PlannedRun& planned, const SequenceFacts& sequence, con
       facts.live_ate_m = judged(read_trajectory(live), sequence.truth, TrajectoryAlignment::none).ate_m.rmse;
     }
   } catch (const InputError& e) {
-    facts.fault = e.what();
+    facts.fault = clean_text(e.what());
   }
   return facts;
 }
@@ -173,8 +209,12 @@ std::string device_of(const Plan& plan) {
   for (const PlannedRun& run : plan.runs) {
     const std::string file = run.folder + "/report.json";
     if (!std::filesystem::exists(file)) continue;
-    const std::string device = read_json(file).value("device", "none");
-    if (device != "none") return device;
+    try {
+      const std::string device = Report(file).words("device", "none");
+      if (device != "none") return device;
+    } catch (const InputError&) {
+      // The run's own row says so.
+    }
   }
   return "none";
 }

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "job.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <map>
@@ -9,15 +10,34 @@
 #include <stdexcept>
 
 #include "checksum.hpp"
+#include "foreign_text.hpp"
+#include "json_text.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
 namespace odosplat::apps {
 
+void check_job_id(const std::string& id) {
+  std::size_t start = 0;
+  bool plain = true;
+  for (std::size_t end = 0; plain && end != std::string::npos; start = end + 1) {
+    end = id.find('/', start);
+    const std::string word = id.substr(start, end == std::string::npos ? end : end - start);
+    plain = !word.empty() && word != "." && word != ".." && std::all_of(word.begin(), word.end(), [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
+             c == '-';
+    });
+  }
+  if (!plain) {
+    throw InputError("job " + clean_text(id), "an id is of letters, digits, ., _ and -, in words with / between them");
+  }
+}
+
 std::vector<std::string> fingerprints(const std::vector<Job>& jobs) {
   std::vector<std::string> all;
   std::map<std::string, std::string> by_id;
   for (const Job& job : jobs) {
+    check_job_id(job.id);
     Checksum sum;
     sum.add(ODOSPLAT_VERSION);
     for (const std::string& word : job.command) {
@@ -61,7 +81,7 @@ void write_record(const std::string& out, const JobRecord& record) {
                                     {"fault", record.fault},
                                     {"seconds", record.seconds},
                                     {"peak_memory_mb", record.peak_memory_mb}};
-  write_file_atomically(record_file(out, record.id), json.dump(2) + "\n");
+  write_file_atomically(record_file(out, record.id), json_text(json));
 }
 
 }  // namespace odosplat::apps

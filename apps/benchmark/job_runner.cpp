@@ -11,6 +11,8 @@
 #include <thread>
 
 #include "child_process.hpp"
+#include "foreign_text.hpp"
+#include "job_outputs.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -50,6 +52,9 @@ void clear_leftovers(const std::string& out, const Job& job, const std::string& 
     fs::remove(file);
     fs::remove(file + ".checkpoint");
   }
+  for (const std::string& file : job.reports) {
+    if (file.rfind(inside, 0) == 0) fs::remove(file);
+  }
   write_file_atomically(marker, fingerprint);
 }
 
@@ -64,18 +69,9 @@ std::unique_ptr<ChildProcess> start(const std::string& out, const Job& job, cons
                                         ProcessLimits{options.time_limit, options.memory_limit});
 }
 
-std::string missing_output(const Job& job) {
-  for (const std::string& file : job.outputs) {
-    if (!fs::exists(file)) return file;
-  }
-  return "";
-}
-
 JobRecord record_of(const Job& job, const std::string& fingerprint, const ProcessEnd& end) {
   JobRecord record{job.id, fingerprint, end.fault, end.seconds, end.peak_memory_mb};
-  if (record.fault.empty()) {
-    if (const std::string missing = missing_output(job); !missing.empty()) record.fault = "left no " + missing;
-  }
+  if (record.fault.empty()) record.fault = output_fault(job);
   return record;
 }
 
@@ -143,12 +139,13 @@ struct Running {
 bool is_settled(const std::string& out, const Job& job, const std::string& fingerprint, bool retry_failed) {
   const JobRecord record = read_record(out, job.id);
   if (record.id.empty() || record.fingerprint != fingerprint) return false;
-  if (record.fault.empty()) return missing_output(job).empty();
+  if (record.fault.empty()) return output_fault(job).empty();
   return !retry_failed && record.fault.rfind(needs_words, 0) != 0;
 }
 
 RunnerOutcome run_jobs(const std::string& out, const std::vector<Job>& jobs, const RunnerOptions& options,
                        const std::string& program) {
+  const SavesWhenInterrupted saves;
   const std::vector<std::string> prints = fingerprints(jobs);
   Board board(jobs, jobs_at_a_time(options));
   for (std::size_t i = 0; i < jobs.size(); ++i) {
@@ -199,9 +196,10 @@ RunnerOutcome run_jobs(const std::string& out, const std::vector<Job>& jobs, con
 
 std::string run_one_job(const std::string& out, const std::vector<Job>& jobs, const std::string& id,
                         const RunnerOptions& options, const std::string& program) {
+  const SavesWhenInterrupted saves;
   const std::vector<std::string> prints = fingerprints(jobs);
   const auto found = std::find_if(jobs.begin(), jobs.end(), [&](const Job& job) { return job.id == id; });
-  if (found == jobs.end()) throw InputError("--job", "the plan has no job " + id);
+  if (found == jobs.end()) throw InputError("--job", "the plan has no job " + clean_text(id));
   const std::string& print = prints[static_cast<std::size_t>(found - jobs.begin())];
   if (is_settled(out, *found, print, options.retry_failed)) return read_record(out, id).fault;
   for (const std::string& need : found->needs) {
@@ -240,9 +238,7 @@ std::vector<JobRecord> settled_records(const std::string& out, const std::vector
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     JobRecord record = read_record(out, jobs[i].id);
     if (record.id.empty() || record.fingerprint != prints[i]) record = {jobs[i].id, prints[i], "not run yet", 0.0, 0.0};
-    if (record.fault.empty()) {
-      if (const std::string missing = missing_output(jobs[i]); !missing.empty()) record.fault = missing + " is gone";
-    }
+    if (record.fault.empty()) record.fault = output_fault(jobs[i]);
     records.push_back(record);
   }
   return records;

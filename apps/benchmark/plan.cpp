@@ -272,6 +272,7 @@ class Planner {
       add_own_command(*own_method(suite_, method), s, planned, job);
     }
     job.outputs = {planned.folder + "/trajectory.txt"};
+    job.reports = {planned.folder + "/report.json", planned.folder + "/trajectory_live.txt"};
     job.work = 0.008 * frames();
     add_job(job);
     plan_.runs.push_back(planned);

@@ -3,7 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
+#include "json_text.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "plan.hpp"
@@ -41,12 +43,34 @@ std::string cache_folder(const BenchmarkOptions& options) {
   return fs::absolute(folder).lexically_normal().string();
 }
 
+namespace {
+
+/// A path may hold any bytes, a JSON text only UTF-8: other paths are written as an object with their bytes.
+nlohmann::ordered_json path_json(const std::string& path) {
+  try {
+    static_cast<void>(nlohmann::ordered_json(path).dump());
+    return path;
+  } catch (const nlohmann::json::exception&) {
+    return {{"bytes", std::vector<unsigned char>(path.begin(), path.end())}};
+  }
+}
+
+std::string path_of(const nlohmann::json& json) {
+  if (json.is_string()) return json.get<std::string>();
+  const auto bytes = json.at("bytes").get<std::vector<unsigned char>>();
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
 void write_plan(const Plan& plan) {
   const BenchmarkOptions& o = plan.options;
   nlohmann::ordered_json json;
   // Whoever goes on from this file may stand in another folder.
-  const auto absolute = [](const std::string& path) { return path.empty() ? path : fs::absolute(path).string(); };
-  json["options"] = {{"suite", fs::is_regular_file(o.suite) ? absolute(o.suite) : o.suite},
+  const auto absolute = [](const std::string& path) {
+    return path_json(path.empty() ? path : fs::absolute(path).string());
+  };
+  json["options"] = {{"suite", fs::is_regular_file(o.suite) ? absolute(o.suite) : path_json(o.suite)},
                      {"root", absolute(o.root)},
                      {"cache", absolute(o.cache)},
                      {"methods", o.methods},
@@ -65,7 +89,7 @@ void write_plan(const Plan& plan) {
                             {"outputs", job.outputs},
                             {"work_s", job.work}});
   }
-  write_file_atomically(o.out + "/plan.json", json.dump(1) + "\n");
+  write_file_atomically(o.out + "/plan.json", json_text(json, 1));
 }
 
 Plan read_plan(const std::string& out) {
@@ -75,9 +99,9 @@ Plan read_plan(const std::string& out) {
   o.out = out;
   try {
     const auto json = nlohmann::json::parse(read_file(file)).at("options");
-    o.suite = json.at("suite");
-    o.root = json.at("root");
-    o.cache = json.at("cache");
+    o.suite = path_of(json.at("suite"));
+    o.root = path_of(json.at("root"));
+    o.cache = path_of(json.at("cache"));
     o.methods = json.at("methods").get<std::vector<std::string>>();
     o.sequences = json.at("sequences").get<std::vector<std::string>>();
     o.runs = json.at("runs");

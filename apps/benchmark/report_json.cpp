@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/report_formats.hpp"
+#include "json_text.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -96,8 +97,7 @@ std::string json_of(const BenchmarkResults& results, const ReportTables& tables)
                   {"tables", tables_json(tables.accuracy)},
                   {"runs", std::move(runs)},
                   {"speed", {{"tables", tables_json(tables.speed)}, {"runs", std::move(run_speeds)}}}};
-  // Words from outside, such as folders' names, need not be UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace odosplat::apps

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 
+#include "foreign_text.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
@@ -104,7 +105,7 @@ Suite parse(const std::string& file, const std::string& text) {
   }
   const Table top(file, root, "the suite", {"suite", "depth_noise", "scenes", "sequences", "methods"});
   Suite suite;
-  suite.name = top.word("suite");
+  suite.name = clean_text(top.word("suite"));
   suite.depth_noise = top.word("depth_noise", suite.depth_noise);
   if (suite.depth_noise != "none" && suite.depth_noise != "kinect") {
     top.fail(root["depth_noise"], "depth_noise must be none or kinect");
@@ -114,7 +115,7 @@ Suite parse(const std::string& file, const std::string& text) {
     SuiteScene scene;
     scene.name = checked_name(table);
     expect_unique(table, suite.scenes, scene.name);
-    scene.words = table.word("words", scene.name);
+    scene.words = clean_text(table.word("words", scene.name));
     scene.stand_in = table.word("stand_in", "");
     scene.cloud = table.words("cloud");
     scene.voxel = table.number("voxel", scene.voxel);

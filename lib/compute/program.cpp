@@ -100,6 +100,8 @@ Program::Program(const Context& context, std::string label, const std::string& t
   cache.store(key, binary_of(program));
 }
 
+std::string program_cache_fault() { return ProgramCache::from_environment().fault(); }
+
 Kernel Program::kernel(const std::string& name, const std::string& stage) const {
   cl_int status = CL_SUCCESS;
   const std::shared_ptr<ContextImpl>& c = context_.shared_impl();

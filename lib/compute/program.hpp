@@ -72,8 +72,9 @@ class Kernel {
 /// Kernels built from files of the folder kernels/ for the context's device. `files` are joined in the order given
 /// (constants.h always goes first). Options: -D NAME=VALUE and the like; "-cl-mad-enable -cl-denorms-are-zero
 /// -cl-no-signed-zeros" are always set (and never -cl-fast-relaxed-math: it breaks the magic-number rounding of exp2).
-/// Binaries are kept in a cache on disk (ODOSPLAT_CACHE_DIR, else $XDG_CACHE_HOME/odosplat, else ~/.cache/odosplat; the
-/// word "off" disables it), keyed by source, options, device and driver version; a broken or foreign entry is rebuilt.
+/// Binaries are kept in a cache on disk (the folder kernels of ODOSPLAT_CACHE_DIR, else of $XDG_CACHE_HOME/odosplat,
+/// else of ~/.cache/odosplat; the word "off" disables it), keyed by source, options, device and driver version; a
+/// broken or foreign entry is rebuilt, and a folder that others may write to is not used (program_cache_fault()).
 /// Throws DeviceError with the build log.
 class Program {
  public:
@@ -90,5 +91,8 @@ class Program {
   std::string label_;
   std::shared_ptr<void> program_;
 };
+
+/// Why the cache on disk is not used although there is one, in a line that says what to do; empty: it is used.
+std::string program_cache_fault();
 
 }  // namespace odosplat::compute

@@ -8,20 +8,24 @@
 namespace odosplat::compute {
 
 /// Program binaries on disk, one file a key. Private to this folder.
-/// A file holds the whole key (so that a hash collision or a foreign file is noticed) and a checksum of the binary.
+/// Binaries are run as they are found, so the folder and its files count only if they belong to this user and nobody
+/// else may write to them; files must be regular ones, not links. A file holds the whole key, which is compared (its
+/// name is only a short hash of it), and the binary's length and checksum, which tell damage and not forgery.
 /// Reading never throws: whatever is wrong with an entry means "not there". Writing failures are ignored: a cache that
 /// cannot be written costs time, nothing else. Several processes may use one folder (write beside, then rename).
 class ProgramCache {
  public:
   /// folder "" disables the cache.
   explicit ProgramCache(std::string folder) : folder_(std::move(folder)) {}
-  /// ODOSPLAT_CACHE_DIR ("off": disabled), else $XDG_CACHE_HOME/odosplat, else $HOME/.cache/odosplat, else disabled.
+  /// ODOSPLAT_CACHE_DIR/kernels ("off": disabled), else $XDG_CACHE_HOME/odosplat/kernels, else
+  /// $HOME/.cache/odosplat/kernels, else disabled.
   static ProgramCache from_environment();
 
   std::vector<unsigned char> load(const std::string& key) const;
+  /// Makes the folder if need be, for this user alone.
   void store(const std::string& key, const std::vector<unsigned char>& binary) const;
-  /// Where the entry of this key lies.
-  std::string path(const std::string& key) const;
+  /// Why the folder is not used, in a line; empty: it is, or is not there yet, or is disabled.
+  std::string fault() const;
 
  private:
   std::string folder_;

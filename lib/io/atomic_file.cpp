@@ -6,11 +6,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "odosplat/core/error.hpp"
@@ -20,13 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In the target's own folder, since rename works within one file system only; apart for each process and file.
-std::string name_beside(const std::string& path) {
-  static std::atomic<unsigned> count{0};
-  return path + ".part" + std::to_string(getpid()) + "_" + std::to_string(count++);
-}
-
 std::string cannot_write(const std::string& reason) { return "cannot be written: " + reason; }
+
+std::string reason_of(const std::system_error& e) {
+  return e.code().value() == ESTALE ? "its temporary file was replaced by another program" : e.code().message();
+}
 
 void make_folder(const std::string& folder, const std::string& named_in_error) {
   std::error_code error;
@@ -34,88 +32,148 @@ void make_folder(const std::string& folder, const std::string& named_in_error) {
   if (error) throw InputError(named_in_error, cannot_write(error.message()));
 }
 
-void make_parent(const std::string& path) {
-  const fs::path parent = fs::path(path).parent_path();
-  if (!parent.empty()) make_folder(parent.string(), path);
+std::string parent_of(const std::string& path) {
+  const std::string parent = fs::path(path).parent_path().string();
+  return parent.empty() ? "." : parent;
+}
+
+/// The file that writing to the path is about: links at its end are followed here, since rename() replaces a link, and
+/// only those that a stranger cannot have planted.
+std::string resolved(const std::string& path) {
+  constexpr int most_links = 40;
+  fs::path at(path);
+  for (int i = 0; i < most_links; ++i) {
+    struct stat status {};
+    if (::lstat(at.c_str(), &status) != 0 || !S_ISLNK(status.st_mode)) return at.string();
+    if (status.st_uid != geteuid() && status.st_uid != 0) {
+      throw InputError(path, cannot_write("it is a link that belongs to another user"));
+    }
+    std::error_code error;
+    const fs::path next = fs::read_symlink(at, error);
+    if (error) throw InputError(path, cannot_write(error.message()));
+    at = at.parent_path() / next;  // an absolute path stays
+  }
+  throw InputError(path, cannot_write("too many links"));
+}
+
+/// True if a file is there, which is a regular one; InputError if it is anything else.
+bool find_replaced(const std::string& path, const std::string& target, struct stat& status) {
+  if (::lstat(target.c_str(), &status) != 0) return false;
+  if (S_ISDIR(status.st_mode)) throw InputError(path, cannot_write("is a folder"));
+  if (!S_ISREG(status.st_mode)) throw InputError(path, cannot_write("is not a regular file"));
+  return true;
 }
 
 void prove_writable(const std::string& folder, const std::string& named_in_error) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) throw InputError(named_in_error, cannot_write("not a folder"));
-  const std::string probe = name_beside((fs::path(folder) / "probe").string());
-  const int file = ::open(probe.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
-  if (file < 0) throw InputError(named_in_error, cannot_write(std::strerror(errno)));
-  ::close(file);
-  ::unlink(probe.c_str());
+  try {
+    const TemporaryFile probe((fs::path(folder) / "probe").string(), 0600);
+  } catch (const std::system_error& e) {
+    throw InputError(named_in_error, cannot_write(reason_of(e)));
+  }
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
-  make_parent(path_);
-  beside_ = name_beside(path_);
-  file_ = ::open(beside_.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0666);
-  if (file_ < 0) throw InputError(path_, cannot_write(std::strerror(errno)));
+AtomicFile::AtomicFile(std::string path, TemporaryName name) : path_(std::move(path)), target_(resolved(path_)) {
+  make_folder(parent_of(target_), path_);
+  struct stat old {};
+  if (find_replaced(path_, target_, old)) {
+    old_mode_ = static_cast<int>(old.st_mode & 0777U);
+    old_owner_ = old.st_uid;
+    old_group_ = old.st_gid;
+  }
+  try {
+    // What replaces a private file must not be readable in the making either.
+    const std::string extension = name == TemporaryName::plain ? "" : fs::path(path_).extension().string();
+    temporary_ = std::make_unique<TemporaryFile>(target_, old_mode_ < 0 ? 0666 : 0600, extension);
+  } catch (const std::system_error& e) {
+    throw InputError(path_, cannot_write(reason_of(e)));
+  }
 }
 
-AtomicFile::~AtomicFile() { discard(); }
+AtomicFile::~AtomicFile() = default;
+
+const std::string& AtomicFile::temporary_name() const { return temporary_->name(); }
 
 void AtomicFile::write(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t n = ::write(file_, bytes.data(), bytes.size());
+    const ssize_t n = ::write(temporary_->descriptor(), bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(errno);
+    if (n < 0) fail(std::strerror(errno));
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
 }
 
-void AtomicFile::commit() {
-  const int closed = ::close(std::exchange(file_, -1));
-  if (closed != 0) fail(errno);
-  if (std::rename(beside_.c_str(), path_.c_str()) != 0) fail(errno);
-  beside_.clear();
+void AtomicFile::commit(Durability durability) {
+  if (old_mode_ >= 0) {
+    auto mode = static_cast<mode_t>(old_mode_);
+    const int file = temporary_->descriptor();
+    struct stat made {};
+    if (::fstat(file, &made) != 0) fail(std::strerror(errno));
+    const bool same_group = made.st_gid == old_group_ || ::fchown(file, static_cast<uid_t>(-1), old_group_) == 0;
+    // Another group gets what everybody has.
+    if (!same_group) mode = (mode & ~070U) | ((mode & 07U) << 3U);
+    // Only root may give files away; for others the new file is their own.
+    if (made.st_uid != old_owner_ && ::fchown(file, old_owner_, static_cast<gid_t>(-1)) != 0 && errno != EPERM) {
+      fail(std::strerror(errno));
+    }
+    if (::fchmod(file, mode) != 0) fail(std::strerror(errno));
+  }
+  try {
+    temporary_->rename_to(target_, durability == Durability::synced);
+  } catch (const std::system_error& e) {
+    fail(reason_of(e));
+  }
+  temporary_.reset();
 }
 
-void AtomicFile::fail(int error) {
-  discard();
-  throw InputError(path_, cannot_write(std::strerror(error)));
+void AtomicFile::fail(const std::string& reason) {
+  temporary_.reset();
+  throw InputError(path_, cannot_write(reason));
 }
 
-void AtomicFile::discard() {
-  if (file_ >= 0) ::close(std::exchange(file_, -1));
-  if (!beside_.empty()) ::unlink(beside_.c_str());
-  beside_.clear();
-}
-
-void write_file_atomically(const std::string& path, std::string_view bytes) {
+void write_file_atomically(const std::string& path, std::string_view bytes, Durability durability) {
   AtomicFile file(path);
   file.write(bytes);
-  file.commit();
+  file.commit(durability);
 }
 
 void ensure_output_folder(const std::string& path) {
   make_folder(path, path);
   prove_writable(path, path);
+  remove_leftovers(path, "");
 }
 
 void ensure_output_file(const std::string& path) {
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored)) throw InputError(path, cannot_write("is a folder"));
-  make_parent(path);
-  const std::string parent = fs::path(path).parent_path().string();
-  prove_writable(parent.empty() ? "." : parent, path);
+  const std::string target = resolved(path);
+  struct stat ignored {};
+  find_replaced(path, target, ignored);
+  const std::string parent = parent_of(target);
+  make_folder(parent, path);
+  prove_writable(parent, path);
+  remove_leftovers(parent, fs::path(target).filename().string());
 }
 
-std::string read_file(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+void refuse_special_file(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+    throw InputError(path, S_ISDIR(status.st_mode) ? "is not a file" : "is not a regular file");
+  }
+}
+
+std::string read_file(const std::string& path, std::size_t most_bytes) {
+  // Without O_NONBLOCK a pipe without a writer would be waited for.
+  const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) throw InputError(path, errno == ENOENT ? "is missing" : std::strerror(errno));
   struct stat status {};
-  if (::fstat(file, &status) != 0 || S_ISDIR(status.st_mode)) {
+  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
     ::close(file);
-    throw InputError(path, "is not a file");
+    throw InputError(path, S_ISDIR(status.st_mode) ? "is not a file" : "is not a regular file");
   }
   std::string content;
-  content.reserve(static_cast<std::size_t>(status.st_size));
+  content.reserve(std::min(most_bytes, static_cast<std::size_t>(status.st_size)));
   char block[1 << 16];
   while (true) {
     const ssize_t n = ::read(file, block, sizeof(block));
@@ -125,6 +183,10 @@ std::string read_file(const std::string& path) {
       const int error = errno;
       ::close(file);
       throw InputError(path, std::string("cannot be read: ") + std::strerror(error));
+    }
+    if (static_cast<std::size_t>(n) > most_bytes - content.size()) {
+      ::close(file);
+      throw InputError(path, "is larger than " + std::to_string(most_bytes >> 20U) + " MiB");
     }
     content.append(block, static_cast<std::size_t>(n));
   }

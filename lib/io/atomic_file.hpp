@@ -2,46 +2,71 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <cstddef>
+#include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 
+#include "odosplat/io/temporary_file.hpp"
+
 namespace odosplat {
 
+/// synced: the file is on the disk before it takes its place, so that a power cut leaves the old one or the new one.
+/// fast: for files that are many and quickly made again, such as rendered images.
+enum class Durability { synced, fast };
+
+/// Who the temporary file's name is read by: nobody, or an encoder that tells the format by the extension.
+enum class TemporaryName { plain, keep_extension };
+
 /// A file that is written beside its place and renamed at the end: a reader sees the old file or the whole new one,
-/// never a part. Missing parent folders are made. Every call throws InputError naming the path and the reason ("cannot
-/// be written"). Without commit() the destructor leaves nothing behind. Not thread safe; different files may be written
-/// by different threads.
+/// never a part. Missing parent folders are made. A link is written through: the file that it names is replaced, in
+/// its own folder; a link that belongs neither to this user nor to root is refused, and so is whatever is there and is
+/// no regular file. The new file has the mode of the one that it replaces, and its owner where this user may give it;
+/// else what the umask leaves of 0666. Every call throws InputError naming the path and the reason ("cannot be
+/// written"). Without commit() the destructor leaves nothing behind. Not thread safe; different files may be written by
+/// different threads.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::string path);
+  explicit AtomicFile(std::string path, TemporaryName name = TemporaryName::plain);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   void write(std::string_view bytes);
-  /// Closes and renames. To be called once, after the last write.
-  void commit();
+  /// Where the content lies until commit(), for encoders that write by name.
+  const std::string& temporary_name() const;
+  /// Puts the file in its place. To be called once, after the last write.
+  void commit(Durability durability = Durability::synced);
 
  private:
-  [[noreturn]] void fail(int error);
-  void discard();
+  [[noreturn]] void fail(const std::string& reason);
 
   std::string path_;
-  std::string beside_;
-  int file_ = -1;
+  std::string target_;  // path_ with its last links resolved
+  int old_mode_ = -1;   // of the file that is replaced; -1: there is none
+  unsigned old_owner_ = 0;
+  unsigned old_group_ = 0;
+  std::unique_ptr<TemporaryFile> temporary_;
 };
 
 /// All of a file at once.
-void write_file_atomically(const std::string& path, std::string_view bytes);
+void write_file_atomically(const std::string& path, std::string_view bytes, Durability durability = Durability::synced);
 
 /// Makes the folder (and its parents) if need be and proves that files can be written there. InputError otherwise.
-/// Programs call this before they compute anything.
+/// Removes temporary files that killed runs left in it. Programs call this before they compute anything.
 void ensure_output_folder(const std::string& path);
 
-/// The same for the folder of a file that will be written later.
+/// The same for the folder of a file that will be written later, and for that file's leftovers. InputError also if the
+/// file could not be replaced (see AtomicFile).
 void ensure_output_file(const std::string& path);
 
-/// Whole content of a file. InputError if it is missing, a folder, or cannot be read.
-std::string read_file(const std::string& path);
+/// Whole content of a regular file. InputError if it is missing, a folder, a pipe, a device or the like, larger than
+/// `most_bytes`, or cannot be read.
+std::string read_file(const std::string& path, std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
+
+/// InputError if there is something at the path that is no regular file: opening a pipe would wait for ever, and a
+/// device need not end. For files that are not read by read_file().
+void refuse_special_file(const std::string& path);
 
 }  // namespace odosplat

@@ -36,7 +36,7 @@ void write_png(const std::string& path, const cv::Mat& image) {
   if (image.empty()) throw InputError(path, "cannot be written: the image is empty");
   std::vector<unsigned char> bytes;
   cv::imencode(".png", image, bytes);
-  write_file_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  write_file_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, Durability::fast);
 }
 
 unsigned char to_byte(float value) {

@@ -203,7 +203,7 @@ Trajectory read_trajectory(const std::string& path, const std::string& times_pat
   return trajectory;
 }
 
-void write_trajectory(const std::string& path, const Trajectory& trajectory) {
+void write_trajectory(const std::string& path, const Trajectory& trajectory, Durability durability) {
   std::string text = "# time tx ty tz qx qy qz qw  (camera to world, metres)\n";
   for (const StampedPose& pose : trajectory) {
     const Eigen::Vector3d& t = pose.T_world_camera.translation();
@@ -213,7 +213,7 @@ void write_trajectory(const std::string& path, const Trajectory& trajectory) {
                   q.w());
     text += pose.stamp() + line;
   }
-  write_file_atomically(path, text);
+  write_file_atomically(path, text, durability);
 }
 
 }  // namespace odosplat

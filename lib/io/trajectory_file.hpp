@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "odosplat/core/trajectory.hpp"
+#include "odosplat/io/atomic_file.hpp"
 
 namespace odosplat {
 
@@ -35,6 +36,7 @@ std::optional<SE3> pose_from_rows(const std::vector<double>& rows);
 
 /// TUM format, 9 decimals, stamps as StampedPose::stamp(); written beside and renamed. An empty trajectory gives a file
 /// with a comment line only.
-void write_trajectory(const std::string& path, const Trajectory& trajectory);
+void write_trajectory(const std::string& path, const Trajectory& trajectory,
+                      Durability durability = Durability::synced);
 
 }  // namespace odosplat

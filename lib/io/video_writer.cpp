@@ -2,8 +2,6 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/io/video_writer.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
@@ -20,18 +18,13 @@ namespace fs = std::filesystem;
 
 bool is_avi(const std::string& path) { return fs::path(path).extension() == ".avi"; }
 
-// The ending stays last: FFmpeg tells the format by it.
-std::string name_beside(const std::string& path) {
-  const fs::path whole(path);
-  return (whole.parent_path() / (whole.stem().string() + ".part" + std::to_string(getpid()))).string() +
-         whole.extension().string();
-}
-
 }  // namespace
 
 struct VideoWriter::State {
+  explicit State(const std::string& name) : path(name), file(name, TemporaryName::keep_extension) {}
+
   std::string path;
-  std::string beside;
+  AtomicFile file;
   cv::Size size;
   cv::VideoWriter writer;
 };
@@ -41,38 +34,33 @@ void check_video_name(const std::string& path) {
   throw InputError(path, "a video's name must end in .avi or .mp4");
 }
 
-VideoWriter::VideoWriter(std::string path, cv::Size size, double fps) : state_(std::make_unique<State>()) {
+VideoWriter::VideoWriter(std::string path, cv::Size size, double fps) {
   check_video_name(path);
   require(size.width > 0 && size.height > 0 && size.width % 2 == 0 && size.height % 2 == 0, "size of a video",
           "even and positive");
   require(std::isfinite(fps) && fps > 0.0 && fps <= 1000.0, "frames a second", "more than 0 and at most 1000");
   ensure_output_file(path);
+  state_ = std::make_unique<State>(path);
   State& s = *state_;
-  s.path = std::move(path);
-  s.beside = name_beside(s.path);
+  const std::string& beside = s.file.temporary_name();
   s.size = size;
   const QuietOpenCv quiet;
   bool open = false;
   try {
     open = is_avi(s.path)
-               ? s.writer.open(s.beside, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), fps, size)
-               : s.writer.open(s.beside, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), fps, size);
+               ? s.writer.open(beside, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), fps, size)
+               : s.writer.open(beside, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), fps, size);
   } catch (const cv::Exception&) {
     open = false;
   }
   if (!open) {
-    ::unlink(s.beside.c_str());
     throw InputError(s.path, is_avi(s.path) ? "cannot be written as Motion JPEG"
                                             : "cannot be written as MPEG-4: OpenCV has no FFmpeg that encodes it; .avi "
                                               "needs none");
   }
 }
 
-VideoWriter::~VideoWriter() {
-  if (state_->beside.empty()) return;
-  state_->writer.release();
-  ::unlink(state_->beside.c_str());
-}
+VideoWriter::~VideoWriter() = default;
 
 void VideoWriter::write(const cv::Mat3b& rgb) {
   require(rgb.size() == state_->size, "a video's frame", "of the size of the others");
@@ -85,10 +73,10 @@ void VideoWriter::commit() {
   State& s = *state_;
   s.writer.release();
   std::error_code error;
-  if (fs::file_size(s.beside, error) == 0 || error) throw InputError(s.path, "cannot be written: no frame got there");
-  fs::rename(s.beside, s.path, error);
-  if (error) throw InputError(s.path, "cannot be written: " + error.message());
-  s.beside.clear();
+  if (fs::file_size(s.file.temporary_name(), error) == 0 || error) {
+    throw InputError(s.path, "cannot be written: no frame got there");
+  }
+  s.file.commit();
 }
 
 }  // namespace odosplat

@@ -107,6 +107,7 @@ void write_splat(const std::string& path, const Gaussians& gaussians, const std:
 std::vector<std::string> header_notes(const std::string& path) {
   constexpr int most_lines = 10000;  // of a header; a file that is no PLY need not end its lines
   const std::string comment = "comment ";
+  refuse_special_file(path);
   std::ifstream file(path, std::ios::binary);
   std::vector<std::string> notes;
   std::string line;
@@ -128,6 +129,7 @@ bool is_splat_path(const std::string& path) {
 
 bool is_map_file(const std::string& path) {
   if (is_splat_path(path)) return true;
+  refuse_special_file(path);
   std::ifstream in(path, std::ios::binary);
   std::string magic(3, '\0');
   in.read(magic.data(), 3);

@@ -3,7 +3,11 @@
 // Jobs as processes: what fails takes nothing with it but what needs it, and what is settled is not run again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
 
 #include "benchmark/job_runner.hpp"
@@ -130,7 +134,7 @@ TEST_F(JobRunner, AMissingOutputIsAFaultAndALostOneRunsTheJobAgain) {
   Job job = shell_job("writes", append("count"));
   job.outputs = {(folder / "never").string()};
   run({job});
-  EXPECT_THAT(fault_of(folder, "writes"), HasSubstr("left no"));
+  EXPECT_THAT(fault_of(folder, "writes"), HasSubstr("is missing"));
   Job other = shell_job("made", append("made"));
   other.outputs = {(folder / "made").string()};
   run({other});
@@ -145,7 +149,7 @@ TEST_F(JobRunner, OutputsOfAnotherVersionAreTakenAwayBefore) {
   run({job});
   job.command.back() = "true # does not write any more";
   run({job});
-  EXPECT_THAT(fault_of(folder, "writes"), HasSubstr("left no"));
+  EXPECT_THAT(fault_of(folder, "writes"), HasSubstr("is missing"));
 }
 
 TEST_F(JobRunner, OneJobAloneWaitsForWhatItNeeds) {
@@ -172,6 +176,105 @@ TEST_F(JobRunner, ADamagedRecordCountsAsNone) {
   EXPECT_EQ(settled_records(out, jobs).at(0).fault, "not run yet");
   run(jobs);
   EXPECT_EQ(lines("a"), 2);
+}
+
+TEST_F(JobRunner, WordsOfOtherProgramsNeedNotBeUtf8) {
+  run({shell_job("latin", "printf 'caf\\351\\n'; exit 1"),
+       shell_job("long", "printf 'x'; for i in $(seq 150); do printf '\\303\\251'; done; exit 1"),
+       shell_job("escape", "printf 'red \\033[31m'; exit 1")});
+  EXPECT_EQ(fault_of(folder, "latin"), "exit 1: caf?");
+  EXPECT_THAT(fault_of(folder, "long"), testing::EndsWith("\xc3\xa9..."));
+  EXPECT_EQ(fault_of(folder, "escape"), "exit 1: red ?[31m");
+}
+
+TEST_F(JobRunner, OutputsAreRegularFilesOfSomeSize) {
+  const auto fault = [&](const std::string& id, const std::string& script) {
+    Job job = shell_job(id, "cd " + out + "; " + script);
+    job.outputs = {out + "/" + id + ".txt"};
+    EXPECT_EQ(run({job}).failed, 1);
+    return fault_of(folder, id);
+  };
+  EXPECT_THAT(fault("pipe", "mkfifo pipe.txt"), HasSubstr("pipe.txt is not a regular file"));
+  EXPECT_THAT(fault("zero", "ln -s /dev/zero zero.txt"), HasSubstr("zero.txt is not a regular file"));
+  EXPECT_THAT(fault("huge", "truncate -s 300M huge.txt"), HasSubstr("huge.txt is too large"));
+}
+
+TEST_F(JobRunner, ADamagedReportIsAFaultAndRunsTheJobAgain) {
+  const std::string report = (folder / "report.json").string();
+  Job job = shell_job("cut", append("cut") + "; printf '{\"frames\": 1' > " + report);
+  job.reports = {report};
+  EXPECT_EQ(run({job}).failed, 1);
+  EXPECT_THAT(fault_of(folder, "cut"), HasSubstr("report.json is damaged"));
+  run({job});
+  EXPECT_EQ(lines("cut"), 1) << "it would only do the same again";
+  job = shell_job("whole", append("whole") + "; printf '{\"frames\": 1}' > " + report);
+  job.reports = {report};
+  EXPECT_EQ(run({job}).failed, 0);
+  apps_test::write_text(report, "{\"fra");
+  EXPECT_THAT(settled_records(out, {job}).at(0).fault, HasSubstr("report.json is damaged"));
+  EXPECT_EQ(run({job}).failed, 0);
+  EXPECT_EQ(lines("whole"), 2);
+}
+
+TEST_F(JobRunner, IdsThatAShellOrAPathWouldObeyAreRefused) {
+  for (const char* id : {"", "a b", "a`touch x`", "$(x)", "../a", "a//b", "a/", "a/./b", "caf\xc3\xa9"}) {
+    EXPECT_THROW(check_job_id(id), InputError) << id;
+    EXPECT_THROW(run({shell_job(id, "true")}), InputError) << id;
+  }
+  check_job_id("track/icl_1/a.b-C/1");
+}
+
+class JobChildren : public JobRunner {
+ protected:
+  /// A script that leaves a sleeping process in a session of its own, and goes on when that has told its id.
+  std::string leave_a_child() const {
+    return "cd " + out + "; setsid sh -c 'echo $$ > pid_; mv pid_ pid; exec sleep 60' & " + "while [ ! -e " + out +
+           "/pid ]; do sleep 0.01; done; ";
+  }
+  pid_t child() const {
+    pid_t pid = 0;
+    std::ifstream(folder / "pid") >> pid;
+    return pid;
+  }
+  bool is_gone_soon() const {
+    for (int i = 0; i < 200; ++i) {
+      if (child() > 0 && kill(child(), 0) != 0 && errno == ESRCH) return true;
+      usleep(20000);
+    }
+    return false;
+  }
+};
+
+TEST_F(JobChildren, EndWithTheirJob) {
+  EXPECT_EQ(run({shell_job("leaves", leave_a_child())}).went_through, 1);
+  EXPECT_TRUE(is_gone_soon());
+}
+
+TEST_F(JobChildren, EndAtTheLimit) {
+  RunnerOptions options = two_at_a_time();
+  options.time_limit = 1.0;
+  EXPECT_EQ(run({shell_job("hangs", leave_a_child() + "sleep 60")}, options).failed, 1);
+  EXPECT_THAT(fault_of(folder, "hangs"), HasSubstr("time limit"));
+  EXPECT_TRUE(is_gone_soon());
+}
+
+TEST_F(JobChildren, CountForTheMemory) {
+  RunnerOptions options = two_at_a_time();
+  options.memory_limit = 100.0;
+  run({shell_job("glutton", "setsid tail /dev/zero & wait")}, options);
+  EXPECT_THAT(fault_of(folder, "glutton"), HasSubstr("memory limit of 100 MB"));
+}
+
+TEST_F(JobChildren, EndWhenTheRunnerIsKilled) {
+  const pid_t runner = fork();
+  if (runner == 0) {
+    run_jobs(out, {shell_job("hangs", leave_a_child() + "sleep 60")}, two_at_a_time(), "-");
+    _exit(0);
+  }
+  while (!exists(folder / "pid")) usleep(10000);
+  kill(runner, SIGKILL);
+  waitpid(runner, nullptr, 0);
+  EXPECT_TRUE(is_gone_soon());
 }
 
 }  // namespace

@@ -37,10 +37,11 @@ class ProgramTest : public testing::Test {
       setenv("ODOSPLAT_CACHE_DIR", old_.c_str(), 1);
     }
   }
+  std::filesystem::path kernels() const { return folder_ / "kernels"; }
   std::vector<std::filesystem::path> entries() const {
     std::vector<std::filesystem::path> found;
-    if (!std::filesystem::exists(folder_)) return found;
-    for (const auto& e : std::filesystem::directory_iterator(folder_)) found.push_back(e.path());
+    if (!std::filesystem::exists(kernels())) return found;
+    for (const auto& e : std::filesystem::directory_iterator(kernels())) found.push_back(e.path());
     return found;
   }
   std::vector<float> run_scale(float factor) {

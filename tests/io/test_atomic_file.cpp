@@ -4,8 +4,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <vector>
 
 #include "temp_folder.hpp"
 
@@ -78,6 +84,169 @@ TEST(AtomicFile, ReportsAFolderThatTakesNoFiles) {
   EXPECT_THAT(error_of([] { ensure_output_folder("/proc"); }), HasSubstr("/proc: cannot be written"));
 }
 
+unsigned mode_of(const std::string& path) {
+  struct stat status {};
+  return stat(path.c_str(), &status) == 0 ? status.st_mode & 07777U : 0;
+}
+
+TEST(AtomicFile, KeepsTheModeOfWhatItReplaces) {
+  const TempFolder temp;
+  for (const mode_t mode : {0600U, 0640U, 0444U, 0777U}) {
+    const std::string file = temp.put("f", "old");
+    ASSERT_EQ(chmod(file.c_str(), mode), 0);
+    write_file_atomically(file, "new");
+    EXPECT_EQ(mode_of(file), mode);
+    EXPECT_EQ(read_file(file), "new");
+    std::filesystem::remove(file);
+  }
+}
+
+TEST(AtomicFile, LeavesTheModeOfANewFileToTheUmask) {
+  const TempFolder temp;
+  for (const mode_t mask : {0022U, 0077U, 0002U}) {
+    const mode_t old = umask(mask);
+    const std::string file = temp / "f" + std::to_string(mask);
+    write_file_atomically(file, "new");
+    umask(old);
+    EXPECT_EQ(mode_of(file), 0666U & ~mask);
+  }
+}
+
+TEST(AtomicFile, IsAsPrivateInTheMakingAsWhatItReplaces) {
+  const TempFolder temp;
+  const std::string path = temp.put("f", "old");
+  ASSERT_EQ(chmod(path.c_str(), 0600), 0);
+  const AtomicFile file(path);
+  EXPECT_EQ(mode_of(file.temporary_name()), 0600U);
+}
+
+TEST(AtomicFile, KeepsTheOwnerWhereItMay) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can give files away";
+  const TempFolder temp;
+  const std::string file = temp.put("f", "old");
+  ASSERT_EQ(chown(file.c_str(), 65534, 65534), 0);
+  write_file_atomically(file, "new");
+  struct stat status {};
+  ASSERT_EQ(stat(file.c_str(), &status), 0);
+  EXPECT_EQ(status.st_uid, 65534U);
+  EXPECT_EQ(status.st_gid, 65534U);
+}
+
+TEST(AtomicFile, WritesThroughALink) {
+  const TempFolder temp;
+  temp.put("disk/target", "old");
+  std::filesystem::create_directories(temp / "links");
+  std::filesystem::create_symlink("../disk/target", temp / "links/near");
+  std::filesystem::create_symlink(temp / "links/near", temp / "far");
+  write_file_atomically(temp / "far", "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(temp / "far"));
+  EXPECT_TRUE(std::filesystem::is_symlink(temp / "links/near"));
+  EXPECT_EQ(read_file(temp / "disk/target"), "new");
+  std::filesystem::remove(temp / "disk/target");
+  write_file_atomically(temp / "far", "again");
+  EXPECT_EQ(read_file(temp / "disk/target"), "again");
+}
+
+TEST(AtomicFile, RefusesTheLinkOfAStranger) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can give links away";
+  const TempFolder temp;
+  temp.put("private", "private");
+  std::filesystem::create_symlink(temp / "private", temp / "out");
+  ASSERT_EQ(lchown((temp / "out").c_str(), 65534, 65534), 0);
+  EXPECT_THAT(error_of([&] { write_file_atomically(temp / "out", "new"); }), HasSubstr("belongs to another user"));
+  EXPECT_THAT(error_of([&] { ensure_output_file(temp / "out"); }), HasSubstr("belongs to another user"));
+  EXPECT_EQ(read_file(temp / "private"), "private");
+}
+
+TEST(AtomicFile, RefusesWhatIsNoRegularFile) {
+  const TempFolder temp;
+  ASSERT_EQ(mkfifo((temp / "pipe").c_str(), 0600), 0);
+  for (const std::string& path : {temp / "pipe", std::string("/dev/null")}) {
+    EXPECT_THAT(error_of([&] { write_file_atomically(path, "x"); }), HasSubstr("is not a regular file"));
+    EXPECT_THAT(error_of([&] { ensure_output_file(path); }), HasSubstr("is not a regular file"));
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(temp / "pipe"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, TemporaryNamesAreNotPredictable) {
+  const TempFolder temp;
+  const AtomicFile first(temp / "f");
+  const AtomicFile second(temp / "f");
+  EXPECT_THAT(first.temporary_name(), testing::MatchesRegex(".*/f\\.odosplat-[0-9a-f]{16}\\.part"));
+  EXPECT_NE(first.temporary_name(), second.temporary_name());
+}
+
+TEST(AtomicFile, NoticesThatItsTemporaryWasReplaced) {
+  const TempFolder temp;
+  temp.put("private", "private");
+  AtomicFile file(temp / "f");
+  file.write("new");
+  std::filesystem::remove(file.temporary_name());
+  std::filesystem::create_symlink(temp / "private", file.temporary_name());
+  EXPECT_THAT(error_of([&] { file.commit(); }), HasSubstr("replaced by another program"));
+  EXPECT_EQ(read_file(temp / "private"), "private");
+  EXPECT_FALSE(std::filesystem::exists(temp / "f"));
+}
+
+TEST(AtomicFile, TakesTheLongestNames) {
+  const TempFolder temp;
+  const std::string longest = temp / std::string(255, 'n');
+  ensure_output_file(longest);
+  write_file_atomically(longest, "x");
+  EXPECT_EQ(read_file(longest), "x");
+}
+
+class Leftovers : public testing::Test {
+ protected:
+  const std::string name_ = "map.ply.odosplat-0123456789abcdef.part";
+  const TempFolder temp_;
+};
+
+TEST_F(Leftovers, OfAnOutputGoWhenItIsWrittenAgain) {
+  temp_.put(name_, "half");
+  temp_.put("map.ply.checkpoint.odosplat-0123456789abcdef.part", "half");
+  temp_.put("clip.avi.odosplat-0123456789abcdef.part.avi", "half");
+  temp_.put("other" + name_, "half");
+  ensure_output_file(temp_ / "map.ply");
+  ensure_output_file(temp_ / "clip.avi");
+  EXPECT_THAT(temp_.files(), ElementsAre("other" + name_));
+  ensure_output_folder(temp_.path());
+  EXPECT_THAT(temp_.files(), IsEmpty());
+}
+
+TEST_F(Leftovers, StayWhileTheirProcessWorks) {
+  AtomicFile file(temp_ / "map.ply");
+  file.write("half");
+  ensure_output_file(temp_ / "map.ply");
+  ensure_output_folder(temp_.path());
+  file.write(" and half");
+  file.commit();
+  EXPECT_EQ(read_file(temp_ / "map.ply"), "half and half");
+}
+
+TEST_F(Leftovers, AreNothingElse) {
+  const std::vector<std::string> names{
+      "map.ply.part12_0", "map.ply.odosplat-0123456789abcdef", "map.ply.odosplat-0123456789abcdeF.part",
+      "map.ply.odosplat-0123456789abcdef.part.txt", "map.ply.odosplat-0123456789abcde.part"};
+  for (const std::string& name : names) temp_.put(name, "a file of the user");
+  std::filesystem::create_directories(temp_ / name_);
+  const std::string linked = "map.ply.odosplat-00000000000000ff.part";
+  std::filesystem::create_symlink(temp_ / names[0], temp_ / linked);
+  ensure_output_file(temp_ / "map.ply");
+  ensure_output_folder(temp_.path());
+  EXPECT_EQ(temp_.files().size(), names.size() + 1);  // and the link to one
+  EXPECT_TRUE(std::filesystem::is_directory(temp_ / name_));
+  EXPECT_TRUE(std::filesystem::is_symlink(temp_ / linked));
+}
+
+TEST_F(Leftovers, OfAnotherUserStay) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can give files away";
+  ASSERT_EQ(chown(temp_.put(name_, "half").c_str(), 65534, 65534), 0);
+  ensure_output_file(temp_ / "map.ply");
+  EXPECT_THAT(temp_.files(), ElementsAre(name_));
+}
+
 TEST(OutputFolder, IsMadeAndProvedWritable) {
   const TempFolder temp;
   ensure_output_folder(temp / "a/b");
@@ -101,6 +270,23 @@ TEST(ReadFile, NamesWhatItCannotRead) {
   EXPECT_EQ(error_of([&] { read_file(temp / "none"); }), temp / "none" + ": is missing");
   EXPECT_EQ(error_of([&] { read_file(temp.path()); }), temp.path() + ": is not a file");
   EXPECT_EQ(read_file(temp.put("empty", "")), "");
+}
+
+TEST(ReadFile, TakesRegularFilesOnly) {
+  const TempFolder temp;
+  ASSERT_EQ(mkfifo((temp / "pipe").c_str(), 0600), 0);
+  for (const std::string& path : {temp / "pipe", std::string("/dev/zero")}) {
+    EXPECT_EQ(error_of([&] { read_file(path); }), path + ": is not a regular file");
+    EXPECT_EQ(error_of([&] { refuse_special_file(path); }), path + ": is not a regular file");
+  }
+  refuse_special_file(temp / "none");
+}
+
+TEST(ReadFile, StopsAtItsLimit) {
+  const TempFolder temp;
+  const std::string file = temp.put("f", std::string(1U << 21U, 'x'));
+  EXPECT_EQ(read_file(file, 1U << 21U).size(), 1U << 21U);
+  EXPECT_EQ(error_of([&] { read_file(file, 1U << 20U); }), file + ": is larger than 1 MiB");
 }
 
 }  // namespace

@@ -52,6 +52,19 @@ TEST(VideoWriter, LeavesNothingWithoutCommit) {
   EXPECT_EQ(files_in(temp.path()), 0U);
 }
 
+TEST(VideoWriter, WritesThroughALinkAndKeepsTheMode) {
+  const TempFolder temp;
+  std::filesystem::permissions(temp.put("disk/old.avi", "old"), std::filesystem::perms(0600));
+  std::filesystem::create_symlink(temp / "disk/old.avi", temp / "clip.avi");
+  VideoWriter writer(temp / "clip.avi", {64, 48}, 12.0);
+  writer.write(cv::Mat3b(48, 64, cv::Vec3b(1, 2, 3)));
+  writer.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(temp / "clip.avi"));
+  EXPECT_EQ(std::filesystem::status(temp / "disk/old.avi").permissions(), std::filesystem::perms(0600));
+  EXPECT_EQ(VideoReader(temp / "clip.avi").size(), 1U);
+  EXPECT_EQ(files_in(temp / "disk"), 1U);
+}
+
 TEST(VideoWriter, RefusesWhatItCannotWrite) {
   const TempFolder temp;
   EXPECT_THAT(error_of([&] { VideoWriter(temp / "a.gif", {64, 48}, 30.0); }), HasSubstr("must end in .avi or .mp4"));
