@@ -84,8 +84,10 @@ bool connect(const char* log) {
   sigaddset(&events, SIGCHLD);
   sigaddset(&events, SIGTERM);
   while (!ended) {
-    // SIGTERM: the runner has died.
-    if (sigwaitinfo(&events, nullptr) == SIGTERM) break;
+    if (sigwaitinfo(&events, nullptr) == SIGTERM) {  // the runner has died, or wants all to end
+      status = SIGTERM;
+      break;
+    }
     int some_status = 0;
     for (pid_t child = waitpid(-1, &some_status, WNOHANG); child > 0; child = waitpid(-1, &some_status, WNOHANG)) {
       if (child != program) continue;

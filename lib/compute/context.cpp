@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "odosplat/compute/opencl.hpp"
+#include "odosplat/compute/program_cache.hpp"
 
 namespace odosplat::compute {
 
@@ -80,6 +81,9 @@ Context Context::open(const std::string& selector) {
   std::vector<DeviceInfo> infos;
   for (const FoundDevice& d : found) infos.push_back(d.info);
   const DeviceInfo& chosen = choose_device(infos, selector);
+  if (chosen.platform == "Portable Computing Language") {
+    if (const std::string fault = pocl_cache_fault(); !fault.empty()) throw NoSuchDevice(fault);
+  }
   auto impl = std::make_shared<ContextImpl>();
   impl->info = chosen;
   impl->device = found[static_cast<std::size_t>(chosen.index)].id;

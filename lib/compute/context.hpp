@@ -44,7 +44,7 @@ struct StageTime {
 /// Copies share the same device and queue. Not thread safe: one thread at a time.
 class Context {
  public:
-  /// selector as in choose_device.
+  /// selector as in choose_device. NoSuchDevice also where PoCL would run kernels from a cache that is not this user's.
   static Context open(const std::string& selector = "");
 
   const DeviceInfo& device() const;

@@ -147,6 +147,31 @@ std::string ProgramCache::fault() const {
          "ODOSPLAT_CACHE_DIR to a folder of your own)";
 }
 
+std::string pocl_cache_fault() {
+  const auto set = [](const char* name) -> std::string {
+    const char* value = std::getenv(name);
+    return value == nullptr ? "" : value;
+  };
+  std::string folder = set("POCL_CACHE_DIR");
+  std::string above;  // which PoCL makes, too
+  if (folder.empty()) {
+    const std::string xdg = set("XDG_CACHE_HOME");
+    const std::string home = set("HOME");
+    above = !xdg.empty() ? xdg + "/pocl" : !home.empty() ? home + "/.cache/pocl" : "/tmp/pocl";
+    folder = above + "/kcache";
+  }
+  for (const std::string& part : {above, folder}) {
+    struct stat status {};
+    if (part.empty() || ::stat(part.c_str(), &status) != 0) continue;
+    const bool foreign = status.st_uid != geteuid();
+    if (!foreign && (status.st_mode & S_IWOTH) == 0) continue;
+    return "PoCL would run compiled kernels from " + part + ", which " +
+           (foreign ? "belongs to another user" : "everybody can write to") +
+           ": set POCL_CACHE_DIR to a folder of your own";
+  }
+  return "";
+}
+
 std::vector<unsigned char> ProgramCache::load(const std::string& key) const {
   if (folder_.empty()) return {};
   const Descriptor folder(open_folder(folder_));

@@ -31,4 +31,9 @@ class ProgramCache {
   std::string folder_;
 };
 
+/// The same of the cache that PoCL keeps by itself (POCL_CACHE_DIR, else $XDG_CACHE_HOME/pocl/kcache, else
+/// $HOME/.cache/pocl/kcache, else /tmp/pocl/kcache), and runs kernels from without asking whose they are: why it must
+/// not be used, in a line; empty: it may. Its group may write to it: PoCL makes it as the umask has it.
+std::string pocl_cache_fault();
+
 }  // namespace odosplat::compute

@@ -8,9 +8,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <string>
 
 namespace odosplat::compute {
 namespace {
@@ -143,6 +148,45 @@ TEST_F(ProgramCacheTest, LeftoversOfKilledProcessesAreRemoved) {
   cache.store("another", binary_);
   EXPECT_FALSE(fs::exists(old));
   EXPECT_TRUE(fs::exists(fresh));
+}
+
+/// Sets a variable of the environment, or takes it away, until the end.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* old = std::getenv(name)) old_ = old;
+    value != nullptr ? setenv(name, value, 1) : unsetenv(name);
+  }
+  ~Variable() { old_ ? setenv(name_, old_->c_str(), 1) : unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> old_;
+};
+
+TEST_F(ProgramCacheTest, PoclsOwnCacheIsThisUsersToo) {
+  const fs::path pocl = scratch_ / "pocl";
+  const Variable direct("POCL_CACHE_DIR", nullptr);
+  const Variable xdg("XDG_CACHE_HOME", scratch_.c_str());
+  EXPECT_EQ(pocl_cache_fault(), "");
+  fs::create_directories(pocl / "kcache");
+  EXPECT_EQ(pocl_cache_fault(), "");
+  for (const fs::path& part : {pocl, pocl / "kcache"}) {
+    fs::permissions(part, fs::perms(0777));
+    EXPECT_THAT(pocl_cache_fault(), HasSubstr("from " + part.string() + ", which everybody can write to"));
+    fs::permissions(part, fs::perms(0755));
+    if (geteuid() != 0) continue;
+    ASSERT_EQ(chown(part.c_str(), 65534, 65534), 0);
+    EXPECT_THAT(pocl_cache_fault(), HasSubstr("from " + part.string() + ", which belongs to another user"));
+    ASSERT_EQ(chown(part.c_str(), 0, 0), 0);
+  }
+  const Variable named("POCL_CACHE_DIR", folder().c_str());
+  EXPECT_EQ(pocl_cache_fault(), "");
+  fs::create_directories(folder());
+  fs::permissions(folder(), fs::perms(0777));
+  EXPECT_THAT(pocl_cache_fault(), HasSubstr(folder()));
 }
 
 }  // namespace
