@@ -61,7 +61,8 @@ void run(const Common& common, const RenderFlags& flags) {
   const Wanted wanted = parse_what(flags.what);
   ensure_output_folder(flags.out);
   const CameraFile camera = read_camera_file(flags.camera);
-  const Trajectory poses = read_trajectory(flags.poses);
+  const PoseFile file = read_pose_file(flags.poses);
+  const Trajectory& poses = file.poses;
   if (method_preset(flags.method).view == ViewKind::sensor) throw InputError("--method", "rgbd has no map to render");
   OpenedView opened = open_view(common, flags.method, flags.map);
   // Sixteen bits: a depth beyond their range is none, a sigma beyond it the largest.
@@ -73,10 +74,10 @@ void run(const Common& common, const RenderFlags& flags) {
   for (std::size_t k = 0; k < poses.size(); ++k) {
     if (interrupted()) throw Interrupted();
     const ViewImages images = opened.view->render(camera.camera, poses[k].T_world_camera, request);
-    if (wanted.color && !images.color.empty()) write_color(file_of(flags, "color", k), images.color);
-    if (wanted.depth) write_depth(file_of(flags, "depth", k), images.depth, camera.depth_scale);
-    if (wanted.alpha) write_gray(file_of(flags, "alpha", k), images.alpha);
-    if (wanted.sigma) write_depth(file_of(flags, "sigma", k), images.sigma, sigma_units);
+    if (wanted.color && !images.color.empty()) write_color(file_of(flags, "color", file.numbers[k]), images.color);
+    if (wanted.depth) write_depth(file_of(flags, "depth", file.numbers[k]), images.depth, camera.depth_scale);
+    if (wanted.alpha) write_gray(file_of(flags, "alpha", file.numbers[k]), images.alpha);
+    if (wanted.sigma) write_depth(file_of(flags, "sigma", file.numbers[k]), images.sigma, sigma_units);
     progress.update(static_cast<long>(k) + 1);
   }
   progress.finish();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "odosplat/core/error.hpp"
@@ -34,6 +35,7 @@ class Reader {
       fail("line " + std::to_string(e.mark.line + 1), shown(e.msg));
     }
     if (!root_.IsMap()) fail("content", "is not a list of `key: value` lines");
+    refuse_duplicates();
   }
 
   bool has(const char* key) const { return static_cast<bool>(root_[key]); }
@@ -79,6 +81,19 @@ class Reader {
     if (!node.IsScalar() || !YAML::convert<double>::decode(node, value)) fail(key, "is not a number");
     if (!std::isfinite(value)) fail(key, "is not finite");
     return value;
+  }
+
+  // The parser keeps both entries and gives out one of them.
+  void refuse_duplicates() const {
+    std::map<std::string, int> lines;
+    for (const auto& entry : root_) {
+      if (!entry.first.IsScalar()) continue;
+      const int line = entry.first.Mark().line + 1;
+      const auto [first, added] = lines.emplace(entry.first.Scalar(), line);
+      if (added) continue;
+      fail(shown(first->first),
+           "is given twice, in lines " + std::to_string(first->second) + " and " + std::to_string(line));
+    }
   }
 
   std::string name_;

@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/io/cloud_columns.hpp"
 #include "odosplat/io/cloud_source.hpp"
 #include "odosplat/io/little_endian.hpp"
 #include "odosplat/io/lzf.hpp"
@@ -40,8 +41,7 @@ Eigen::Vector3f unpack(std::uint32_t rgb) {
 }
 
 ColorRange range_of(const PcdField& field) {
-  if (field.type == 'F') return {1.0F, 255.0F};
-  return field.size == 2 && field.type == 'U' ? ColorRange{65535.0F, 65535.0F} : ColorRange{255.0F, 255.0F};
+  return {field.type == 'F' ? 1.0F : 255.0F, field.size > 1 ? 65535.0F : 255.0F};
 }
 
 class PcdSource : public CloudSource {
@@ -49,19 +49,28 @@ class PcdSource : public CloudSource {
   explicit PcdSource(CloudInput input) : input_(std::move(input)), lines_(input_.name, *input_.in) {
     header_ = read_pcd_header(input_.name, lines_);
     left_ = header_.points;
-    if (!wanted({"x", "y", "z"})) throw InputError(input_.name, "header", "has no fields x y z");
-    has_packed_ = wanted({"rgb"}) || wanted({"rgba"});
+    std::vector<std::string> names;
+    for (const PcdField& field : header_.fields) names.push_back(field.name);
+    const CloudColumns columns = find_cloud_columns(names);
+    if (!columns.point) throw InputError(input_.name, "header", "has no fields x y z");
+    want(*columns.point);
+    const PcdField* packed = header_.find("rgb");
+    if (packed == nullptr) packed = header_.find("rgba");
+    has_packed_ = packed != nullptr;
     if (has_packed_) {
+      fields_.push_back(*packed);
       if (fields_.back().size != 4) throw InputError(input_.name, "header", "packed colours have 4 bytes");
       range_ = ColorRange{};
-    } else if (wanted({"r", "g", "b"}) || wanted({"red", "green", "blue"})) {
+    } else if (columns.color) {
+      want(*columns.color);
       range_ = ColorRange{0.0F, 0.0F};
       for (std::size_t i = 3; i < 6; ++i) {
         range_->low = std::max(range_->low, range_of(fields_[i]).low);
         range_->high = std::max(range_->high, range_of(fields_[i]).high);
       }
     }
-    has_normals_ = wanted({"normal_x", "normal_y", "normal_z"}) || wanted({"nx", "ny", "nz"});
+    has_normals_ = columns.normal.has_value();
+    if (has_normals_) want(*columns.normal);
     if (header_.data == PcdData::binary) require_points();
     if (header_.data == PcdData::binary_compressed) open_streams();
   }
@@ -91,12 +100,8 @@ class PcdSource : public CloudSource {
   // Values of one point, of the wanted fields in their order; a packed colour as its bits.
   using Values = std::array<double, 9>;
 
-  bool wanted(const std::vector<std::string>& names) {
-    if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return !header_.find(name); })) {
-      return false;
-    }
-    for (const std::string& name : names) fields_.push_back(*header_.find(name));
-    return true;
+  void want(const CloudColumns::Triple& columns) {
+    for (const std::size_t column : columns) fields_.push_back(header_.fields[column]);
   }
 
   bool is_packed(std::size_t field) const { return has_packed_ && field == 3; }

@@ -1,44 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include <algorithm>
-#include <array>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/io/cloud_columns.hpp"
 #include "odosplat/io/cloud_source.hpp"
+#include "odosplat/io/foreign_format.hpp"
 #include "odosplat/io/ply_body.hpp"
+#include "odosplat/io/text_words.hpp"
 
 namespace odosplat {
 namespace {
 
-using Names = std::array<const char*, 3>;
+using Triple = CloudColumns::Triple;
 
-const PlyHeaderProperty* find_scalar(const PlyHeaderElement& element, const std::string& name) {
+// Of the scalar properties, in their order: those are the columns of a block.
+std::vector<std::string> scalar_names(const PlyHeaderElement& element) {
+  std::vector<std::string> names;
   for (const PlyHeaderProperty& p : element.properties) {
-    if (p.name == name && !p.is_list) return &p;
+    if (!p.is_list) names.push_back(p.name);
   }
-  return nullptr;
+  return names;
 }
 
-std::optional<Names> first_complete(const PlyHeaderElement& vertex, std::initializer_list<Names> choices) {
-  for (const Names& names : choices) {
-    if (std::all_of(names.begin(), names.end(), [&](const char* name) { return find_scalar(vertex, name); })) {
-      return names;
-    }
-  }
-  return std::nullopt;
-}
-
-// Unsigned integers use their range; floats say 0..1 or 0..255 by their values.
-ColorRange range_of(PlyType type) {
-  const PlyColumn column = make_ply_column(type);
-  if (std::holds_alternative<std::vector<std::uint16_t>>(column)) return {65535.0F, 65535.0F};
+ColorRange range_of(const PlyHeaderElement& element, const std::string& name) {
+  const auto property = std::find_if(element.properties.begin(), element.properties.end(),
+                                     [&](const PlyHeaderProperty& p) { return p.name == name; });
+  const PlyColumn column = make_ply_column(property->type);
   const bool is_real =
       std::holds_alternative<std::vector<float>>(column) || std::holds_alternative<std::vector<double>>(column);
-  return {is_real ? 1.0F : 255.0F, 255.0F};
+  return {is_real ? 1.0F : 255.0F, ply_size(property->type) > 1 ? 65535.0F : 255.0F};
 }
 
 template <typename Vector>
-void interleave(const PlyElement& block, const Names& names, std::vector<Vector>& vectors) {
+void interleave(const PlyElement& block, const Triple& columns, std::vector<Vector>& vectors) {
   using Scalar = typename Vector::Scalar;
   vectors.resize(block.count);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -48,7 +43,7 @@ void interleave(const PlyElement& block, const Names& names, std::vector<Vector>
             vectors[i][static_cast<Eigen::Index>(axis)] = static_cast<Scalar>(column[i]);
           }
         },
-        *block.find(names[axis]));
+        block.properties[columns[axis]].values);
   }
 }
 
@@ -59,18 +54,22 @@ class PlySource : public CloudSource {
         header_(read_ply_header(input_.name, *input_.in)),
         body_(input_.name, *input_.in, header_, input_.size - static_cast<std::uint64_t>(input_.in->tellg())) {
     const auto vertex = std::find_if(header_.elements.begin(), header_.elements.end(),
-                                     [](const PlyHeaderElement& e) { return e.name == "vertex"; });
+                                     [](const PlyHeaderElement& e) { return same_word(e.name, "vertex"); });
     if (vertex == header_.elements.end()) throw InputError(input_.name, "has no element vertex");
-    for (const char* axis : points_) {
-      if (!find_scalar(*vertex, axis)) throw InputError(input_.name, "vertex", std::string("has no property ") + axis);
+    const std::vector<std::string> names = scalar_names(*vertex);
+    refuse_packed_ply(input_.name, names);
+    columns_ = find_cloud_columns(names);
+    if (!columns_.point) {
+      for (const char* axis : {"x", "y", "z"}) {
+        if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return same_word(name, axis); })) {
+          throw InputError(input_.name, "vertex", std::string("has no property ") + axis);
+        }
+      }
     }
-    colors_ = first_complete(*vertex, {Names{"red", "green", "blue"},
-                                       Names{"diffuse_red", "diffuse_green", "diffuse_blue"}, Names{"r", "g", "b"}});
-    normals_ = first_complete(*vertex, {Names{"nx", "ny", "nz"}});
-    if (colors_) {
+    if (columns_.color) {
       range_ = ColorRange{0.0F, 0.0F};
-      for (const char* name : *colors_) {
-        const ColorRange range = range_of(find_scalar(*vertex, name)->type);
+      for (const std::size_t column : *columns_.color) {
+        const ColorRange range = range_of(*vertex, names[column]);
         range_->low = std::max(range_->low, range.low);
         range_->high = std::max(range_->high, range.high);
       }
@@ -86,9 +85,9 @@ class PlySource : public CloudSource {
     rows.clear();
     const PlyElement block = body_.next(batch_rows);
     if (block.count == 0) return false;
-    interleave(block, points_, rows.points);
-    if (colors_) interleave(block, *colors_, rows.colors);
-    if (normals_) interleave(block, *normals_, rows.normals);
+    interleave(block, *columns_.point, rows.points);
+    if (columns_.color) interleave(block, *columns_.color, rows.colors);
+    if (columns_.normal) interleave(block, *columns_.normal, rows.normals);
     return true;
   }
 
@@ -99,9 +98,7 @@ class PlySource : public CloudSource {
   CloudInput input_;
   PlyHeader header_;
   PlyBody body_;
-  Names points_{"x", "y", "z"};
-  std::optional<Names> colors_;
-  std::optional<Names> normals_;
+  CloudColumns columns_;
   std::optional<ColorRange> range_;
 };
 

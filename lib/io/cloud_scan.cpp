@@ -13,6 +13,8 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/cloud_source.hpp"
+#include "odosplat/io/foreign_format.hpp"
+#include "odosplat/io/text_words.hpp"
 
 namespace odosplat {
 
@@ -40,14 +42,16 @@ std::string extension_of(const std::string& name) {
 }
 
 Opener opener_of(const CloudInput& input) {
-  std::array<char, 8> start{};
+  std::array<char, 16> start{};
   input.in->read(start.data(), start.size());
   const std::string_view magic(start.data(), static_cast<std::size_t>(input.in->gcount()));
   input.in->clear();
   input.in->seekg(0);
-  if (magic.starts_with("ply\n") || magic.starts_with("ply\r")) return open_ply_source;
+  const std::string_view begin = magic.substr(magic.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  if (begin.starts_with("ply\n") || begin.starts_with("ply\r")) return open_ply_source;
   if (magic.starts_with("LASF")) return open_las_source;
-  if (magic.starts_with("# .PCD") || magic.starts_with("VERSION ")) return open_pcd_source;
+  if (begin.starts_with("# .PCD") || begin.starts_with("VERSION ")) return open_pcd_source;
+  refuse_foreign_format(input.name, magic);
   const std::string extension = extension_of(input.name);
   if (extension == ".ply") return open_ply_source;
   if (extension == ".pcd") return open_pcd_source;
@@ -58,19 +62,24 @@ Opener opener_of(const CloudInput& input) {
   throw InputError(input.name, "is no point cloud of a known format (PLY, PCD, LAS, or text as .xyz .csv .txt)");
 }
 
+// Colours of real numbers may overshoot a little.
+bool exceeds(float value, float full) { return value > full * 1.001F; }
+
 // Reads on until it is known what a full colour is; 0: the file has no colours.
 float full_color(CloudSource& source, const ColorRange& range) {
   float largest = 0.0F;
+  float full = range.low;
   CloudRows rows;
-  while (source.next(rows)) {
-    for (const Eigen::Vector3f& c : rows.colors) {
-      for (const float value : c) {
-        if (value > range.low) return range.high;
-        largest = std::max(largest, value);
-      }
+  while (full < range.high && source.next(rows)) {
+    for (std::size_t i = 0; i < rows.colors.size(); ++i) {
+      if (!rows.points[i].allFinite() || !rows.colors[i].allFinite()) continue;
+      largest = std::max(largest, rows.colors[i].maxCoeff());
+    }
+    for (const float next : {255.0F, 65535.0F}) {
+      if (exceeds(largest, full) && next > full && next <= range.high) full = next;
     }
   }
-  return range.black_is_none && largest <= 0.0F ? 0.0F : range.low;
+  return range.black_is_none && largest <= 0.0F ? 0.0F : full;
 }
 
 // Rows as files have them to points as everyone wants them.
@@ -102,7 +111,7 @@ class Cleaner {
 
  private:
   Eigen::Vector3f color(const Eigen::Vector3f& raw) const {
-    if (!raw.allFinite() || raw.minCoeff() < 0.0F) {
+    if (!raw.allFinite() || raw.minCoeff() < 0.0F || exceeds(raw.maxCoeff(), full_color_)) {
       throw InputError(name_, std::string(row_word_) + " " + std::to_string(seen_ + 1), "its colour is no colour");
     }
     return (raw / full_color_).cwiseMin(1.0F);

@@ -33,7 +33,7 @@ struct CloudRows {
   void clear();
 };
 
-/// What a full colour is: `high` if any colour of the file is above `low`, else `low`.
+/// What a full colour may be: of 1, 255 and 65535 the first in low..high that no value of the file exceeds.
 struct ColorRange {
   float low = 255.0F;
   float high = 255.0F;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include <limits>
+#include <string>
 
 #include "odosplat/io/cloud_source.hpp"
 #include "odosplat/io/text_layout.hpp"
@@ -35,7 +36,7 @@ class TextSource : public CloudSource {
 
   std::optional<ColorRange> color_range() const override {
     if (!layout_.color) return std::nullopt;
-    return ColorRange{1.0F, 255.0F};
+    return ColorRange{1.0F, layout_.has_names ? 65535.0F : 255.0F};
   }
 
  private:
@@ -53,8 +54,11 @@ class TextSource : public CloudSource {
 
   Eigen::Vector3f color() const {
     const auto value = triple<float>(*layout_.color);
-    if (!(value.minCoeff() >= 0.0F && value.maxCoeff() <= 255.0F)) {
-      lines_.fail("its colour is no colour of 0..255 or 0..1");
+    // Without names, columns of more than 8 bits may be anything.
+    const float most = layout_.has_names ? 65535.0F : 255.0F;
+    if (!(value.minCoeff() >= 0.0F && value.maxCoeff() <= most)) {
+      lines_.fail(std::string("its colour is no colour of ") + (layout_.has_names ? "0..65535, " : "") +
+                  "0..255 or 0..1");
     }
     return value;
   }

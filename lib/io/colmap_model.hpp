@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ namespace odosplat {
 struct ColmapImage {
   std::string name;  // relative to the folder of images; no control characters
   std::uint32_t camera_id = 0;
-  SE3 T_world_camera;
+  std::optional<SE3> T_world_camera;  // none: a value of it is not finite
 };
 
 /// By id. Models SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV; distortion k1 k2 p1 p2, empty if all are 0.

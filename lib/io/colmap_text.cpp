@@ -2,10 +2,13 @@
 // Copyright 2026 The odosplat authors
 // The text form of a COLMAP model.
 #include <charconv>
+#include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/colmap_model.hpp"
+#include "odosplat/io/text_rows.hpp"
 #include "odosplat/io/text_words.hpp"
 
 namespace odosplat {
@@ -27,21 +30,27 @@ void take_numbers(const std::string& name, std::size_t line, std::string_view& r
   for (double& value : values) value = word_number(name, line, take_word(rest));
 }
 
-std::size_t words_in(std::string_view line) {
-  std::size_t count = 0;
-  for (bool inside = false; const char c : line) {
-    const bool blank = c == ' ' || c == '\t' || c == '\r';
-    count += !blank && !inside ? 1 : 0;
-    inside = !blank;
+// A value of a pose, which may be nan or inf where an image has none.
+double pose_number(const std::string& name, std::size_t line, std::string_view word) {
+  const std::optional<double> value = number_of(word);
+  return value && !std::isfinite(*value) ? *value : word_number(name, line, word);
+}
+
+// Observed pixels: `x y point` each, the point a whole number (-1: none).
+bool holds_pixels(std::string_view line) {
+  while (!trimmed(line).empty()) {
+    if (!number_of(take_word(line)) || !number_of(take_word(line))) return false;
+    const std::optional<double> point = number_of(take_word(line));
+    if (!point || *point != std::floor(*point)) return false;
   }
-  return count;
+  return true;
 }
 
 }  // namespace
 
 ColmapCameras parse_colmap_cameras_text(const std::string& name, const std::string& text) {
   ColmapCameras cameras;
-  for_each_line(text, [&](std::size_t line, std::string_view rest) {
+  for_each_line(name, text, [&](std::size_t line, std::string_view rest) {
     const std::uint32_t id = word_id(name, line, take_word(rest), "a camera");
     const std::string model(take_word(rest));
     colmap_parameter_count(name, place_of(line), model);  // refuses models that are not read
@@ -61,19 +70,19 @@ ColmapCameras parse_colmap_cameras_text(const std::string& name, const std::stri
 // Two lines an image; the second, the observed pixels, may be empty.
 std::vector<ColmapImage> parse_colmap_images_text(const std::string& name, const std::string& text) {
   std::vector<ColmapImage> images;
-  std::string_view lines = text;
+  std::string_view lines = without_byte_order_mark(name, text);
   for (std::size_t number = 1; !lines.empty(); ++number) {
     std::string_view rest = trimmed(take_line(lines));
     if (rest.empty() || rest[0] == '#') continue;
     word_id(name, number, take_word(rest), "an image");
     double q[4];
     double t[3];
-    take_numbers(name, number, rest, q);
-    take_numbers(name, number, rest, t);
+    for (double& value : q) value = pose_number(name, number, take_word(rest));
+    for (double& value : t) value = pose_number(name, number, take_word(rest));
     const std::uint32_t camera = word_id(name, number, take_word(rest), "a camera");
     images.push_back(colmap_image(name, place_of(number), q, t, camera, std::string(rest)));
     ++number;
-    if (words_in(take_line(lines)) % 3 != 0) {
+    if (!holds_pixels(take_line(lines))) {
       fail_line(name, number, "expected the pixels of the image above, `x y point` each, or an empty line");
     }
   }
@@ -84,7 +93,7 @@ std::vector<ColmapImage> parse_colmap_images_text(const std::string& name, const
 
 PointCloud parse_colmap_points_text(const std::string& name, const std::string& text) {
   PointCloud cloud;
-  for_each_line(text, [&](std::size_t line, std::string_view rest) {
+  for_each_line(name, text, [&](std::size_t line, std::string_view rest) {
     take_word(rest);  // the point's number
     double xyz[3];
     double rgb[3];

@@ -6,6 +6,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/colmap_model.hpp"
+#include "odosplat/io/common_camera.hpp"
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/natural_order.hpp"
 
@@ -36,33 +37,27 @@ std::string find_image_folder(const std::string& path, const std::string& first_
   std::string tried;
   for (const char* place : {"images", ".", "../images", "../../images"}) {
     const std::string folder = (fs::path(path) / place).lexically_normal().string();
-    if (file_exists(join(folder, first_image))) return folder;
+    if (file_exists(listed_file(folder, first_image))) return folder;
     tried += std::string(tried.empty() ? "" : ", ") + place;
   }
   throw InputError(path, "image " + first_image, "is in none of the folders " + tried);
 }
 
-// The one camera of all images; InputError if there are several.
+// The one camera of all images; InputError if there are several, unless that camera will not count.
 CameraFile camera_of(const ModelFiles& model, const std::vector<ColmapImage>& images, bool overridden) {
   const ColmapCameras cameras = read_colmap_cameras(model.file("cameras"));
-  const CameraFile* first = nullptr;
+  std::vector<ImageCamera> stated;
   for (const ColmapImage& image : images) {
     const auto found = cameras.find(image.camera_id);
     if (found == cameras.end()) {
       throw InputError(model.file("images"), "image " + image.name,
                        "its camera " + std::to_string(image.camera_id) + " is not among the cameras");
     }
-    const CameraFile& camera = found->second;
-    if (first == nullptr) first = &camera;
-    const bool same = camera.camera == first->camera && camera.distortion == first->distortion;
-    if (!same && !overridden) {
-      throw InputError(
-          model.file("images"), "image " + image.name,
-          "has another camera than " + images.front().name +
-              "; a sequence has one (`colmap feature_extractor --ImageReader.single_camera 1`, or --camera)");
-    }
+    stated.push_back({"image " + image.name, &found->second});
   }
-  return *first;
+  if (overridden) return *stated.front().camera;
+  return common_camera(model.file("images"), stated,
+                       "`colmap feature_extractor --ImageReader.single_camera 1`, or --camera");
 }
 
 }  // namespace
@@ -85,9 +80,12 @@ SequenceIndex index_colmap(const std::string& path, const SequenceOptions& optio
   const std::string folder = find_image_folder(path, images.front().name);
   NumberedFiles files;
   for (std::size_t i = 0; i < images.size(); ++i) {
-    files.color[static_cast<long long>(i)] = join(folder, images[i].name);
-    files.poses[static_cast<long long>(i)] = images[i].T_world_camera;
+    const auto number = static_cast<long long>(i);
+    files.color[number] = listed_file(folder, images[i].name);
+    if (images[i].T_world_camera) files.poses[number] = *images[i].T_world_camera;
   }
+  if (files.poses.empty()) throw InputError(model.file("images"), "no image has a pose that is finite");
+  warn_without_pose(model.file("images"), images.size() - files.poses.size(), images.size());
   fill_numbered(files, index);
   if (file_exists(model.file("points3D"))) index.sparse_points = {model.file("points3D"), read_colmap_points};
   return index;

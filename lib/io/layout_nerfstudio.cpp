@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* endings[] = {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG"};
+
 // SEQ/transforms.json, or SEQ itself: transforms_train.json and the like.
 std::string transforms_of(const std::string& path) {
   return is_transforms(path) ? path : join(path, "transforms.json");
@@ -22,8 +24,22 @@ std::string transforms_of(const std::string& path) {
 
 // Synthetic sets leave the extension out.
 std::string image_file(const std::string& folder, const std::string& written) {
-  const std::string file = (fs::path(folder) / written).lexically_normal().string();
-  return is_image_name(file) || file_exists(file) ? file : file + ".png";
+  const std::string file = fs::path(listed_file(folder, written)).lexically_normal().string();
+  if (is_image_name(file) || file_exists(file)) return file;
+  for (const char* ending : endings) {
+    const std::string candidate = fs::path(listed_file(folder, written + ending)).lexically_normal().string();
+    if (file_exists(candidate)) return candidate;
+  }
+  return file + endings[0];
+}
+
+// The same for an image that must be there.
+std::string color_file(const std::string& folder, const TransformsFrame& frame) {
+  const std::string file = image_file(folder, frame.color);
+  if (!file_exists(file) && !is_image_name(frame.color)) {
+    throw InputError(file, "is missing, and so is that name with .jpg or .jpeg");
+  }
+  return file;
 }
 
 }  // namespace
@@ -40,18 +56,22 @@ SequenceIndex index_nerfstudio(const std::string& path, const SequenceOptions& o
   for (std::size_t i = 0; i < transforms.frames.size(); ++i) {
     const TransformsFrame& frame = transforms.frames[i];
     const auto number = static_cast<long long>(i);
-    files.color[number] = image_file(folder, frame.color);
+    files.color[number] = color_file(folder, frame);
     if (!frame.depth.empty()) files.depth[number] = image_file(folder, frame.depth);
-    files.poses[number] = frame.T_world_camera;
+    if (frame.T_world_camera) files.poses[number] = *frame.T_world_camera;
   }
-  cv::Size size;
-  if (!transforms.camera.has_size()) size = read_image_size(files.color[0]);
-  CameraFile camera = transforms.camera.camera(file, size);
+  warn_without_pose(file, transforms.frames.size() - files.poses.size(), transforms.frames.size());
+  CameraFile camera;
+  if (options.camera_file.empty() && !file_exists(join(folder, "camera.yaml"))) {
+    cv::Size size;
+    if (!transforms.frames.front().camera.has_size()) size = read_image_size(files.color[0]);
+    camera = transforms.camera(file, size);
+  }
   camera.depth_scale = transforms.depth_scale;
   choose_camera(options, {folder}, camera, file, camera.depth_scale, index);
   fill_numbered(files, index);
   if (!transforms.points.empty()) {
-    const std::string points = (fs::path(folder) / transforms.points).lexically_normal().string();
+    const std::string points = fs::path(listed_file(folder, transforms.points)).lexically_normal().string();
     if (file_exists(points)) index.sparse_points = {points, read_point_cloud};
   }
   return index;

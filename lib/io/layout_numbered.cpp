@@ -2,12 +2,14 @@
 // Copyright 2026 The odosplat authors
 // Layouts whose files carry frame numbers: Redwood (Choi, Zhou, Koltun, CVPR 2015), 7-Scenes (Shotton et al., CVPR
 // 2013), Replica as rendered for iMAP and NICE-SLAM (Sucar et al., ICCV 2021).
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/json_text.hpp"
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/natural_order.hpp"
 #include "odosplat/io/trajectory_file.hpp"
@@ -102,8 +104,7 @@ int json_size(const std::string& file, const nlohmann::json& camera, const char*
 }
 
 CameraFile read_replica_camera(const std::string& file) {
-  const nlohmann::json json = nlohmann::json::parse(read_file(file), nullptr, false);
-  if (json.is_discarded() || !json.is_object()) throw InputError(file, "is not JSON");
+  const nlohmann::json json = parse_json_object(file, read_file(file));
   if (!json.contains("camera") || !json["camera"].is_object()) throw InputError(file, "camera", "is missing");
   const nlohmann::json& camera = json["camera"];
   const int width = json_size(file, camera, "w");
@@ -169,8 +170,12 @@ SequenceIndex index_sevenscenes(const std::string& path, const SequenceOptions& 
   for (const std::string& name : list_folder(folder)) {
     if (!name.ends_with(".pose.txt")) continue;
     const long long number = number_in(name.substr(0, name.find('.')));
-    if (number >= 0) files.poses[number] = read_pose_matrix(join(folder, name));
+    if (number < 0) continue;
+    if (const std::optional<SE3> pose = read_pose_matrix(join(folder, name))) files.poses[number] = *pose;
   }
+  const auto without = std::count_if(files.color.begin(), files.color.end(),
+                                     [&](const auto& image) { return files.poses.count(image.first) == 0; });
+  warn_without_pose(folder, static_cast<std::size_t>(without), files.color.size());
   fill_numbered(files, index);
   return index;
 }

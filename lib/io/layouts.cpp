@@ -7,12 +7,12 @@
 #include <filesystem>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/io/trajectory_file.hpp"
 
 namespace odosplat {
 namespace {
 
-constexpr double same_stamp = 1e-6;      // [s]
 constexpr double largest_bracket = 0.1;  // [s]
 constexpr double nearest_pose = 0.01;    // [s]
 
@@ -21,7 +21,7 @@ constexpr double nearest_pose = 0.01;    // [s]
 const std::vector<Layout>& layouts() {
   static const std::vector<Layout> all{
       {"video", "a video file", is_video, index_video},
-      {"tum", "rgb.txt", is_tum, index_tum},
+      {"tum", "rgb.txt, or associations.txt with times", is_tum, index_tum},
       {"icl", "associations.txt", is_icl, index_icl},
       {"redwood", "*-color", is_redwood, index_redwood},
       {"sevenscenes", "frame-*.color.png or seq-*", is_sevenscenes, index_sevenscenes},
@@ -35,6 +35,21 @@ const std::vector<Layout>& layouts() {
 
 std::string join(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
+}
+
+std::string listed_file(const std::string& folder, const std::string& written) {
+  const std::string file = join(folder, written);
+  if (written.find('\\') == std::string::npos || file_exists(file)) return file;
+  std::string turned = written;
+  std::replace(turned.begin(), turned.end(), '\\', '/');
+  const std::string other = join(folder, turned);
+  return file_exists(other) ? other : file;
+}
+
+void warn_without_pose(const std::string& place, std::size_t without, std::size_t frames) {
+  if (without == 0 || without == frames) return;
+  log_warning(place + ": " + std::to_string(without) + " of " + std::to_string(frames) +
+              " frames have no pose, or one that is not finite");
 }
 
 bool file_exists(const std::string& path) {

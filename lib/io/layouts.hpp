@@ -25,7 +25,8 @@ struct FrameFiles {
   std::optional<SE3> T_world_camera;
   // Where the camera was when the depth image was taken, if its own stamp says so; none: as T_world_camera.
   std::optional<SE3> T_world_depth;
-  std::string depth_time_text;  // the stamp of the depth image, as listed; empty: the colour image's
+  double depth_time = 0.0;      // the stamp of the depth image, if depth_time_text is set
+  std::string depth_time_text;  // the same as listed; empty: the colour image's
 };
 
 /// Points that a data set gives beside its poses, in the same world, and how their file is read.
@@ -78,8 +79,12 @@ SequenceIndex index_video(const std::string& path, const SequenceOptions& option
 // Shared by the readers.
 
 constexpr double default_fps = 30.0;
+constexpr double same_stamp = 1e-6;  // [s] stamps this near are one
 
 std::string join(const std::string& folder, const std::string& name);
+/// The file that a list names, relative to the list's folder. Backslashes are folders if only so there is such a file
+/// (lists made on Windows).
+std::string listed_file(const std::string& folder, const std::string& written);
 bool file_exists(const std::string& path);
 /// Lower-case extension with its dot (".png").
 std::string extension_of(const std::string& name);
@@ -104,11 +109,14 @@ struct NumberedFiles {
 /// Poses of a file whose times are frame numbers. InputError if one is not a whole number.
 std::map<long long, SE3> read_numbered_poses(const std::string& path);
 
+/// Warns once if some of the frames, not all, have no pose; `place` is the file or folder that should give them.
+void warn_without_pose(const std::string& place, std::size_t without, std::size_t frames);
+
 /// Frames are the colour images in the order of their numbers, with the depth and the pose of the same number; truth is
 /// every pose. Times are number / fps, fps from index.camera or 30.
 void fill_numbered(const NumberedFiles& files, SequenceIndex& index);
 
-/// Pose at time t [s]: the one of equal stamp (within 1 microsecond); else between the two around t if they are at most
+/// Pose at time t [s]: the one of equal stamp (same_stamp); else between the two around t if they are at most
 /// 0.1 s apart; else the nearest within 0.01 s; else none.
 std::optional<SE3> pose_at(const Trajectory& trajectory, double t);
 

@@ -3,6 +3,8 @@
 #include "odosplat/io/list_file.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <tuple>
@@ -12,15 +14,42 @@
 namespace odosplat {
 namespace {
 
+constexpr std::array<std::string_view, 3> image_endings{".png", ".jpg", ".jpeg"};
+
 bool names_color(std::string_view path) {
   return path.find("rgb") != std::string_view::npos || path.find("color") != std::string_view::npos;
+}
+
+bool names_image(std::string_view name) {
+  return std::any_of(image_endings.begin(), image_endings.end(), [&](std::string_view ending) {
+    return name.size() > ending.size() && same_word(name.substr(name.size() - ending.size()), ending);
+  });
+}
+
+bool is_number(std::string_view word) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+// The first name of a pair: up to the ending of an image that a number follows, else one word.
+std::string_view take_first_name(std::string_view& rest) {
+  const std::string_view all = rest;
+  while (!rest.empty()) {
+    const std::string_view word = take_word(rest);
+    std::string_view behind = rest;
+    if (!names_image(word) || !is_number(take_word(behind)) || behind.empty()) continue;
+    return all.substr(0, static_cast<std::size_t>(word.data() - all.data()) + word.size());
+  }
+  rest = all;
+  return take_word(rest);
 }
 
 }  // namespace
 
 std::vector<ListedImage> parse_image_list(const std::string& name, const std::string& text) {
   std::vector<ListedImage> images;
-  for_each_line(text, [&](std::size_t line, std::string_view rest) {
+  for_each_line(name, text, [&](std::size_t line, std::string_view rest) {
     const std::string_view time = take_word(rest);
     ListedImage image{word_number(name, line, time), std::string(time), std::string(rest), line};
     if (image.path.empty()) fail_line(name, line, "names no file");
@@ -32,17 +61,32 @@ std::vector<ListedImage> parse_image_list(const std::string& name, const std::st
   return images;
 }
 
+bool ListedPair::has_times() const {
+  return color_text.find('.') != std::string::npos || depth_text.find('.') != std::string::npos;
+}
+
 std::vector<ListedPair> parse_pair_list(const std::string& name, const std::string& text) {
   std::vector<ListedPair> pairs;
-  for_each_line(text, [&](std::size_t line, std::string_view rest) {
-    const double first_id = word_number(name, line, take_word(rest));
-    const std::string_view first = take_word(rest);
-    const double second_id = word_number(name, line, take_word(rest));
-    const std::string_view second = take_word(rest);
+  for_each_line(name, text, [&](std::size_t line, std::string_view rest) {
+    const std::string_view first_id = take_word(rest);
+    word_number(name, line, first_id);
+    const std::string_view first = take_first_name(rest);
+    const std::string_view second_id = take_word(rest);
+    word_number(name, line, second_id);
+    const std::string_view second = rest;
     if (first.empty() || second.empty()) fail_line(name, line, "expected `id depth id color`");
+    if (second.find_first_of(" \t") != std::string_view::npos && !names_image(second)) {
+      fail_line(name, line, "has more than `id depth id color`");
+    }
+    ListedPair pair;
+    pair.line = line;
     const bool color_first = names_color(first) && !names_color(second);
-    ListedPair pair{second_id, std::string(second), std::string(first), line};
-    if (color_first) pair = {first_id, std::string(first), std::string(second), line};
+    pair.color_text = color_first ? first_id : second_id;
+    pair.depth_text = color_first ? second_id : first_id;
+    pair.color_path = color_first ? first : second;
+    pair.depth_path = color_first ? second : first;
+    pair.color_id = word_number(name, line, pair.color_text);
+    pair.depth_id = word_number(name, line, pair.depth_text);
     if (!pairs.empty() && !(pair.color_id > pairs.back().color_id)) fail_line(name, line, "ids do not grow");
     pairs.push_back(std::move(pair));
   });

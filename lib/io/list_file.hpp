@@ -21,16 +21,23 @@ struct ListedImage {
 /// grow. InputError(name, "line N", fault) otherwise; a list without images is returned empty.
 std::vector<ListedImage> parse_image_list(const std::string& name, const std::string& text);
 
-/// A line "id depth id color" of ICL-NUIM's associations.txt.
+/// A line "id depth id color" of associations.txt. An id is a frame number (ICL-NUIM) or a time in seconds (TUM's
+/// associate.py).
 struct ListedPair {
   double color_id = 0.0;
+  double depth_id = 0.0;
+  std::string color_text;  // the ids as written
+  std::string depth_text;
   std::string color_path;
   std::string depth_path;
   std::size_t line = 0;
+
+  /// True if an id is written with a decimal point: times, not frame numbers.
+  bool has_times() const;
 };
 
-/// The depth image comes first, as the official files have it, unless the first name holds "rgb" or "color". Ids must
-/// grow. InputError(name, "line N", fault) otherwise.
+/// The depth image comes first, as ICL-NUIM's files have it, unless the first name holds "rgb" or "color". A name may
+/// hold blanks if it ends in .png, .jpg or .jpeg. Ids must grow. InputError(name, "line N", fault) otherwise.
 std::vector<ListedPair> parse_pair_list(const std::string& name, const std::string& text);
 
 /// Pairs of indices (a, b) of times at most `tolerance` [s] apart, each used once, nearest pairs first (ties: earlier

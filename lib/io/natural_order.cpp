@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "odosplat/core/error.hpp"
 
@@ -50,7 +51,7 @@ std::vector<std::string> list_folder(const std::string& folder) {
   std::error_code error;
   std::vector<std::string> names;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    names.push_back(it->path().filename().string());
+    if (std::string name = it->path().filename().string(); !name.starts_with('.')) names.push_back(std::move(name));
   }
   if (error) throw InputError(folder, "cannot be listed: " + error.message());
   std::sort(names.begin(), names.end(), natural_less);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/io/text_words.hpp"
 
 namespace odosplat {
 namespace {
@@ -133,7 +134,7 @@ class HeaderReader {
 
 const PcdField* PcdHeader::find(const std::string& name) const {
   for (const PcdField& field : fields) {
-    if (field.name == name) return &field;
+    if (same_word(field.name, name)) return &field;
   }
   return nullptr;
 }

@@ -30,6 +30,7 @@ struct PcdHeader {
   std::size_t words = 0;   // values of a row
   std::size_t stride = 0;  // [bytes] of a row in binary files
 
+  /// In letters of either size; nullptr if there is none.
   const PcdField* find(const std::string& name) const;
 };
 

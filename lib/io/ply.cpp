@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/io/text_words.hpp"
 
 namespace odosplat {
 namespace {
@@ -19,6 +20,9 @@ const PlyColumn* PlyElement::find(const std::string& property) const {
   for (const PlyProperty& p : properties) {
     if (p.name == property) return &p.values;
   }
+  for (const PlyProperty& p : properties) {
+    if (same_word(p.name, property)) return &p.values;
+  }
   return nullptr;
 }
 
@@ -30,14 +34,14 @@ void PlyElement::add(const std::string& property, PlyColumn values) {
 
 bool Ply::has(const std::string& element_name) const {
   for (const PlyElement& e : elements) {
-    if (e.name == element_name) return true;
+    if (same_word(e.name, element_name)) return true;
   }
   return false;
 }
 
 const PlyElement& Ply::element(const std::string& element_name) const {
   for (const PlyElement& e : elements) {
-    if (e.name == element_name) return e;
+    if (same_word(e.name, element_name)) return e;
   }
   throw InputError(file, "has no element " + element_name);
 }

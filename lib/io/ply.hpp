@@ -28,7 +28,7 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 
   bool has(const std::string& property) const { return find(property) != nullptr; }
-  /// nullptr if there is none.
+  /// nullptr if there is none. A name in letters of another size counts where none is equal.
   const PlyColumn* find(const std::string& property) const;
   /// Appends a column; its length must be `count`, or sets `count` if it is the first. std::invalid_argument otherwise.
   void add(const std::string& property, PlyColumn values);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/io/text_words.hpp"
 
 namespace odosplat {
 namespace {
@@ -38,7 +39,8 @@ class HeaderReader {
   HeaderReader(const std::string& name, std::istream& in) : name_(name), in_(in) {}
 
   PlyHeader read() {
-    if (next_line() != "ply") throw InputError(name_, "is not a PLY file");
+    const std::string first = next_line();
+    if (without_byte_order_mark(name_, first) != "ply") throw InputError(name_, "is not a PLY file");
     bool has_format = false;
     for (std::string line = next_line(); line != "end_header"; line = next_line()) {
       std::istringstream words(line);

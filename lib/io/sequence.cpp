@@ -18,6 +18,8 @@
 namespace odosplat {
 namespace {
 
+constexpr int smallest_side = 2;  // [px]
+
 const Layout& layout_named(const std::string& name) {
   std::string known;
   for (const Layout& layout : layouts()) {
@@ -83,7 +85,7 @@ struct Sequence::Data {
   /// Empty: none.
   std::string vignette_file() const {
     if (index.camera.vignette.empty()) return {};
-    return (std::filesystem::path(index.camera_source).parent_path() / index.camera.vignette).string();
+    return listed_file(std::filesystem::path(index.camera_source).parent_path().string(), index.camera.vignette);
   }
   cv::Size camera_size() const { return {index.camera.camera.width, index.camera.camera.height}; }
 
@@ -157,6 +159,11 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
     data->require_camera_size(path, index.video->frame_size());
   } else {
     data->require_camera_size(index.frames.front().color, read_image_size(index.frames.front().color));
+  }
+  // Interpolation and gradients need a neighbor.
+  if (const cv::Size size = data->camera_size(); size.width < smallest_side || size.height < smallest_side) {
+    throw InputError(path, "images of " + size_text(size) + " are too small, must have " +
+                               std::to_string(smallest_side) + " pixels each way at least");
   }
   // Last: only now is the size that the camera file promises known to be true.
   data->undistorter = Undistorter(index.camera.camera, index.camera.distortion);

@@ -28,11 +28,12 @@ struct SequenceOptions {
 /// A recorded sequence: images with times and, where the data set gives them, depth and true poses.
 ///
 /// Layouts (path: a folder, or a video file; formats as their authors publish them):
-///   tum          rgb.txt, camera.yaml; if there, depth.txt and groundtruth.txt. Depth belongs to the colour image
-///   nearest
-///                in time, at most 0.02 s away as in TUM's own tool, each depth image to one colour image. Pose of a
-///                colour image: of equal stamp; else between the two poses around it if those are at most 0.1 s apart;
-///                else the nearest within 0.01 s; else none.
+///   tum          rgb.txt, or associations.txt whose ids are times (with a decimal point); camera.yaml; if there,
+///                depth.txt and groundtruth.txt. Depth belongs to the colour image of its pair, without pairs to the one
+///                nearest in time, at most 0.02 s away as in TUM's own tool, each depth image to one colour image. Pose
+///                of a colour image: of equal stamp; else between the two poses around it if those are at most 0.1 s
+///                apart; else the nearest within 0.01 s; else none, and none where groundtruth.txt has a pose of that
+///                stamp that is not finite.
 ///   icl          associations.txt (ids, depth first), *.gt.freiburg or *.gt.sim: image k has the pose with id k.
 ///                481.2 -480 319.5 239.5, 5000 a metre.
 ///   redwood      *-color, *-depth*, *-traj.txt or *.log: image number k has pose k. 525 525 319.5 239.5, 1000 a metre.
@@ -43,14 +44,18 @@ struct SequenceOptions {
 ///   sparse/0;
 ///                images in images, in the folder itself, or in images one or two folders above. Frames in the natural
 ///                order of their names, frame k at k / fps. Camera models SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL,
-///                RADIAL, OPENCV. All images must have one camera, unless a camera file is given. The world and its
-///                unit are the model's own: see sparse_points() and `odosplat align`.
+///                RADIAL, OPENCV. All images must have one camera (common_camera), unless a camera file is given. The
+///                world and its unit are the model's own: see sparse_points() and `odosplat align`.
 ///   nerfstudio   transforms.json (or such a file by its own name): frames as listed, frame k at k / fps; one camera,
-///                given by the file or the same in every frame, OPENCV or simpler; depth_file_path in millimetres or as
-///                depth_unit_scale_factor says. The world is that of the stored poses and of ply_file_path;
-///                applied_transform is not undone. Masks are not used.
+///                given by the file or by every frame (common_camera), OPENCV or simpler, unless a camera file is given;
+///                names may lack .png, .jpg or .jpeg; depth_file_path in
+///                millimetres or as depth_unit_scale_factor says. The world is that of the stored poses and of
+///                ply_file_path; applied_transform is not undone. Masks are not used.
 ///   images       PNG and JPEG files in natural order (2 before 10), with a camera file. No poses, no depth.
 ///   video        what OpenCV decodes, with a camera file. All frames are counted at opening.
+/// In every layout a pose that is not finite, or that is not there, is none: the frame is without pose, and one warning
+/// tells how many. Files whose names begin with a dot are not seen. Backslashes in a listed name are folders if only so
+/// there is such a file.
 /// A camera.yaml in the folder counts instead of a calibration named above. Where only frame numbers are known, time is
 /// number / fps (30 if the camera file does not say).
 ///

@@ -21,7 +21,7 @@ std::vector<double> numbers_of(const std::string& name, std::size_t line, std::s
 
 Similarity parse_similarity(const std::string& name, const std::string& text) {
   std::vector<double> v;
-  for_each_line(text, [&](std::size_t line, std::string_view rest) {
+  for_each_line(name, text, [&](std::size_t line, std::string_view rest) {
     for (const double value : numbers_of(name, line, rest)) v.push_back(value);
     if (v.size() > 8) fail_line(name, line, "there are more than the 8 numbers s tx ty tz qx qy qz qw");
   });
@@ -46,7 +46,7 @@ std::string similarity_text(const Similarity& similarity) {
 
 PointPairs parse_point_pairs(const std::string& name, const std::string& text) {
   PointPairs pairs;
-  for_each_line(text, [&](std::size_t line, std::string_view rest) {
+  for_each_line(name, text, [&](std::size_t line, std::string_view rest) {
     const std::vector<double> v = numbers_of(name, line, rest);
     if (v.size() != 6) fail_line(name, line, "expected the 6 numbers x y z X Y Z");
     pairs.source.emplace_back(v[0], v[1], v[2]);

@@ -3,7 +3,6 @@
 #include "odosplat/io/text_layout.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <vector>
 
@@ -25,7 +24,7 @@ char separator_of(std::string_view line) {
   return line.find(',') != std::string_view::npos ? ',' : ' ';
 }
 
-// Lower case, without quotes and the marks of a comment.
+// Without quotes and the marks of a comment.
 Names names_of(std::string_view line) {
   line.remove_prefix(std::min(line.find_first_not_of("#/ \t\r"), line.size()));
   Words words;
@@ -34,34 +33,22 @@ Names names_of(std::string_view line) {
   for (const std::string_view word : words) {
     std::string name;
     for (const char c : word) {
-      if (c != '"' && c != '\'') name.push_back(static_cast<char>(std::tolower(static_cast<unsigned char>(c))));
+      if (c != '"' && c != '\'') name.push_back(c);
     }
     names.push_back(std::move(name));
   }
   return names;
 }
 
-std::optional<Triple> find_triple(const Names& names, const std::vector<std::array<const char*, 3>>& choices) {
-  for (const auto& choice : choices) {
-    Triple triple{};
-    bool complete = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      triple[i] = static_cast<std::size_t>(std::find(names.begin(), names.end(), choice[i]) - names.begin());
-      complete = complete && triple[i] < names.size();
-    }
-    if (complete) return triple;
-  }
-  return std::nullopt;
-}
-
 std::optional<TextLayout> layout_of(const Names& names) {
-  const std::optional<Triple> point = find_triple(names, {{"x", "y", "z"}});
-  if (!point) return std::nullopt;
+  const CloudColumns columns = find_cloud_columns(names);
+  if (!columns.point) return std::nullopt;
   TextLayout layout;
   layout.columns = names.size();
-  layout.point = *point;
-  layout.color = find_triple(names, {{"r", "g", "b"}, {"red", "green", "blue"}});
-  layout.normal = find_triple(names, {{"nx", "ny", "nz"}, {"normal_x", "normal_y", "normal_z"}});
+  layout.has_names = true;
+  layout.point = *columns.point;
+  layout.color = columns.color;
+  layout.normal = columns.normal;
   return layout;
 }
 

@@ -2,23 +2,25 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <istream>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "odosplat/io/cloud_columns.hpp"
+
 namespace odosplat {
 
 /// Columns of a text file of points, from 0.
 struct TextLayout {
-  using Triple = std::array<std::size_t, 3>;
+  using Triple = CloudColumns::Triple;
 
   char separator = ' ';
   std::size_t columns = 3;
   std::size_t lines_before = 0;  // the first point
   Triple point{0, 1, 2};
+  bool has_names = false;  // the file names its columns
   std::optional<Triple> color;
   std::optional<Triple> normal;
 };

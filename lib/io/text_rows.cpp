@@ -7,19 +7,13 @@
 #include <utility>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/io/text_words.hpp"
 
 namespace odosplat {
 namespace {
 
 constexpr std::size_t max_line = std::size_t{1} << 16;
 constexpr std::string_view blanks = " \t\r";
-
-std::string_view trimmed(std::string_view word) {
-  const std::size_t start = std::min(word.find_first_not_of(blanks), word.size());
-  word.remove_prefix(start);
-  const std::size_t last = word.find_last_not_of(blanks);
-  return word.substr(0, last == std::string_view::npos ? 0 : last + 1);
-}
 
 }  // namespace
 
@@ -37,6 +31,7 @@ bool LineReader::next(std::string& line) {
     if (line.size() > max_line) fail("is longer than a line of text can be");
   }
   if (!line.empty() && line.back() == '\r') line.pop_back();
+  if (number_ == 1) line.erase(0, line.size() - without_byte_order_mark(name_, line).size());
   return true;
 }
 

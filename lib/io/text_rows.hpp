@@ -11,8 +11,8 @@
 
 namespace odosplat {
 
-/// Lines of a text, numbered from 1, without their ends (LF or CR LF). InputError for a line of more than 64 KiB: that
-/// is no text.
+/// Lines of a text, numbered from 1, without their ends (LF or CR LF); a byte-order mark of UTF-8 before the first is
+/// passed over. InputError for a line of more than 64 KiB (that is no text) and for UTF-16.
 class LineReader {
  public:
   LineReader(std::string name, std::istream& in);

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/text_words.hpp"
 
 namespace odosplat {
 namespace {
@@ -25,7 +27,7 @@ struct Line {
 class Lines {
  public:
   Lines(std::string name, const std::string& text) : name_(std::move(name)) {
-    std::string_view rest = text;
+    std::string_view rest = without_byte_order_mark(name_, text);
     for (std::size_t number = 1; !rest.empty(); ++number) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());
       add(number, rest.substr(0, end));
@@ -38,6 +40,11 @@ class Lines {
 
   [[noreturn]] void fail(const Line& line, const std::string& fault) const {
     throw InputError(name_, "line " + std::to_string(line.number), fault);
+  }
+  /// The first value of a line, which is a time or a number of a frame.
+  double stamp(const Line& line) const {
+    if (!std::isfinite(line.values[0])) fail(line, shown(line.first) + " is not finite");
+    return line.values[0];
   }
 
  private:
@@ -56,7 +63,6 @@ class Lines {
       double value = 0.0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
       if (error != std::errc() || end != word.data() + word.size()) fail(line, shown(word) + " is not a number");
-      if (!std::isfinite(value)) fail(line, shown(word) + " is not finite");
       line.values.push_back(value);
       if (line.values.size() > 16) fail(line, "has more than 16 values");
     }
@@ -69,7 +75,15 @@ class Lines {
   std::vector<Line> lines_;
 };
 
+// Stands for a pose that a file gives as not finite, until poses are told from places without one.
+SE3 no_pose() { return {Eigen::Quaterniond::Identity(), Eigen::Vector3d::Constant(std::nan(""))}; }
+
+bool all_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
 SE3 pose_from_rows(const Lines& lines, const Line& line, const std::vector<double>& v) {
+  if (!all_finite(v)) return no_pose();
   const std::optional<SE3> pose = odosplat::pose_from_rows(v);
   if (!pose) lines.fail(line, "the matrix is no rotation");
   return *pose;
@@ -77,13 +91,15 @@ SE3 pose_from_rows(const Lines& lines, const Line& line, const std::vector<doubl
 
 StampedPose tum_pose(const Lines& lines, const Line& line) {
   const std::vector<double>& v = line.values;
+  const double time = lines.stamp(line);
+  if (!all_finite(v)) return {time, no_pose(), line.first};
   const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);
   // Eigen's norm squares: values beyond 1e150 would overflow it.
   const double length = q.coeffs().stableNorm();
   if (!(length > 1e-6 && length < 1e6))
     lines.fail(line,
                "the quaternion has length " + (length < 1.0 ? std::string("zero") : std::string("beyond reason")));
-  return {v[0], SE3(q, Eigen::Vector3d(v[1], v[2], v[3])), line.first};
+  return {time, SE3(q, Eigen::Vector3d(v[1], v[2], v[3])), line.first};
 }
 
 // `rows` lines of four values, from line `first` on, one behind the other.
@@ -108,7 +124,7 @@ Trajectory redwood_log(const Lines& lines) {
   for (std::size_t i = 0; i < all.size(); i += 5) {
     if (all[i].values.size() != 3) lines.fail(all[i], "expected `i j k` before a matrix");
     const std::vector<double> rows = matrix_rows(lines, i + 1, 4);
-    trajectory.push_back({all[i].values[0], pose_from_rows(lines, all[i + 1], rows), all[i].first});
+    trajectory.push_back({lines.stamp(all[i]), pose_from_rows(lines, all[i + 1], rows), all[i].first});
   }
   return trajectory;
 }
@@ -158,10 +174,42 @@ void set_times(const std::string& times_path, Trajectory& trajectory) {
                                      std::to_string(trajectory.size()) + " poses");
   }
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    trajectory[i].time = lines.all()[i].values[0];
+    trajectory[i].time = lines.stamp(lines.all()[i]);
     trajectory[i].time_text = lines.all()[i].first;
   }
   require_order(lines, 1, trajectory);
+}
+
+// Every pose that the file lists, no_pose() where it is not finite.
+Trajectory listed_poses(const std::string& name, const std::string& text) {
+  const Lines lines(name, text);
+  if (lines.all().empty()) throw InputError(name, "holds no pose");
+  const std::size_t first = lines.all().front().values.size();
+  const bool log = first == 3;
+  const bool rows = first == 4;
+  Trajectory trajectory = log ? redwood_log(lines) : rows ? pose_in_three_rows(lines) : pose_a_line(lines);
+  require_order(lines, log ? 5 : rows ? 3 : 1, trajectory);
+  return trajectory;
+}
+
+PoseFile pose_file(const std::string& name, Trajectory listed) {
+  PoseFile file;
+  const std::size_t all = listed.size();
+  for (std::size_t i = 0; i < all; ++i) {
+    if (!listed[i].T_world_camera.is_finite()) {
+      file.times_without_pose.push_back(listed[i].time);
+      continue;
+    }
+    file.poses.push_back(std::move(listed[i]));
+    file.numbers.push_back(i);
+  }
+  const std::size_t without = file.times_without_pose.size();
+  if (without == all) throw InputError(name, "holds no pose that is finite");
+  if (without > 0) {
+    log_warning(name + ": " + std::to_string(without) + " of " + std::to_string(all) +
+                " poses are not finite and left out");
+  }
+  return file;
 }
 
 }  // namespace
@@ -177,30 +225,29 @@ std::optional<SE3> pose_from_rows(const std::vector<double>& rows) {
 }
 
 Trajectory parse_trajectory(const std::string& name, const std::string& text) {
-  const Lines lines(name, text);
-  if (lines.all().empty()) throw InputError(name, "holds no pose");
-  const std::size_t first = lines.all().front().values.size();
-  const bool log = first == 3;
-  const bool rows = first == 4;
-  Trajectory trajectory = log ? redwood_log(lines) : rows ? pose_in_three_rows(lines) : pose_a_line(lines);
-  require_order(lines, log ? 5 : rows ? 3 : 1, trajectory);
-  return trajectory;
+  return pose_file(name, listed_poses(name, text)).poses;
 }
 
-SE3 parse_pose_matrix(const std::string& name, const std::string& text) {
+std::optional<SE3> parse_pose_matrix(const std::string& name, const std::string& text) {
   const Lines lines(name, text);
+  if (lines.all().empty()) return std::nullopt;
   if (lines.all().size() != 4) {
     throw InputError(name, "holds " + std::to_string(lines.all().size()) + " lines of numbers, a 4x4 matrix has 4");
   }
-  return pose_from_rows(lines, lines.all().front(), matrix_rows(lines, 0, 4));
+  const SE3 pose = pose_from_rows(lines, lines.all().front(), matrix_rows(lines, 0, 4));
+  return pose.is_finite() ? std::optional(pose) : std::nullopt;
 }
 
-SE3 read_pose_matrix(const std::string& path) { return parse_pose_matrix(path, read_file(path)); }
+std::optional<SE3> read_pose_matrix(const std::string& path) { return parse_pose_matrix(path, read_file(path)); }
+
+PoseFile read_pose_file(const std::string& path, const std::string& times_path) {
+  Trajectory listed = listed_poses(path, read_file(path));
+  if (!times_path.empty()) set_times(times_path, listed);
+  return pose_file(path, std::move(listed));
+}
 
 Trajectory read_trajectory(const std::string& path, const std::string& times_path) {
-  Trajectory trajectory = parse_trajectory(path, read_file(path));
-  if (!times_path.empty()) set_times(times_path, trajectory);
-  return trajectory;
+  return read_pose_file(path, times_path).poses;
 }
 
 void write_trajectory(const std::string& path, const Trajectory& trajectory, Durability durability) {

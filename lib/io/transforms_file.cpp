@@ -2,12 +2,15 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/io/transforms_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/io/common_camera.hpp"
+#include "odosplat/io/json_text.hpp"
 #include "odosplat/io/text_words.hpp"
 #include "odosplat/io/trajectory_file.hpp"
 
@@ -46,14 +49,14 @@ class Reader {
     return text;
   }
 
-  // Three rows of four, and a fourth that is not looked at.
+  // Three rows of four, and a fourth that is not looked at; NaN stands for what the file has as null.
   std::vector<double> matrix(const Json& json, const char* key) const {
     const Json& rows = json[key];
     if (!rows.is_array() || (rows.size() != 3 && rows.size() != 4)) fail(key, "is not a matrix of 3 or 4 rows");
     std::vector<double> values;
     for (std::size_t r = 0; r < 3; ++r) {
       if (!rows[r].is_array() || rows[r].size() != 4) fail(key, "is not a matrix of rows of 4 numbers");
-      for (const Json& value : rows[r]) values.push_back(finite(value, key));
+      for (const Json& value : rows[r]) values.push_back(value.is_null() ? std::nan("") : finite(value, key));
     }
     return values;
   }
@@ -119,8 +122,10 @@ TransformsFrame read_frame(const Reader& reader, const Json& json) {
   frame.color = reader.path(json, "file_path");
   if (frame.color.empty()) reader.fail("file_path", "is missing");
   frame.depth = reader.path(json, "depth_file_path");
-  if (!json.contains("transform_matrix")) reader.fail("transform_matrix", "is missing");
-  const std::optional<SE3> T_world_gl = pose_from_rows(reader.matrix(json, "transform_matrix"));
+  if (!json.contains("transform_matrix") || json["transform_matrix"].is_null()) return frame;
+  const std::vector<double> rows = reader.matrix(json, "transform_matrix");
+  if (std::any_of(rows.begin(), rows.end(), [](double value) { return std::isnan(value); })) return frame;
+  const std::optional<SE3> T_world_gl = pose_from_rows(rows);
   if (!T_world_gl) reader.fail("transform_matrix", "the matrix is no rotation");
   frame.T_world_camera = turned(*T_world_gl);
   return frame;
@@ -154,9 +159,18 @@ CameraFile TransformsCamera::camera(const std::string& name, const cv::Size& siz
   return file;
 }
 
+CameraFile TransformsFile::camera(const std::string& name, const cv::Size& size) const {
+  std::vector<CameraFile> cameras;
+  for (const TransformsFrame& frame : frames) cameras.push_back(frame.camera.camera(name, size));
+  std::vector<ImageCamera> stated;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    stated.push_back({"frame " + std::to_string(i + 1) + " (" + frames[i].color + ")", &cameras[i]});
+  }
+  return common_camera(name, stated, "split the file by camera, or --camera");
+}
+
 TransformsFile parse_transforms(const std::string& name, const std::string& text) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded() || !json.is_object()) throw InputError(name, "is not a JSON object");
+  const Json json = parse_json_object(name, text);
   const Reader reader(name, "");
   TransformsFile file;
   TransformsCamera shared;
@@ -172,16 +186,14 @@ TransformsFile parse_transforms(const std::string& name, const std::string& text
     const std::string place = "frame " + std::to_string(file.frames.size() + 1);
     const Reader frame_reader(name, place + ": ");
     if (!entry.is_object()) throw InputError(name, place, "is not an object");
-    TransformsCamera camera = shared;
-    read_camera(frame_reader, entry, camera);
     file.frames.push_back(read_frame(frame_reader, entry));
-    if (file.frames.size() == 1) file.camera = camera;
-    if (!(camera == file.camera)) {
-      throw InputError(name, place + " (" + file.frames.back().color + ")",
-                       "has another camera than frame 1 (" + file.frames.front().color + "); a sequence has one");
-    }
+    file.frames.back().camera = shared;
+    read_camera(frame_reader, entry, file.frames.back().camera);
   }
   if (file.frames.empty()) reader.fail("frames", "lists no image");
+  if (std::none_of(file.frames.begin(), file.frames.end(), [](const auto& frame) { return frame.T_world_camera; })) {
+    reader.fail("frame 1: transform_matrix", "is missing or not finite, as in every frame");
+  }
   return file;
 }
 

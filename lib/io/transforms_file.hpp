@@ -37,25 +37,30 @@ struct TransformsCamera {
 struct TransformsFrame {
   std::string color;  // as written, relative to the file's folder
   std::string depth;  // the same; empty: none
-  SE3 T_world_camera;
+  std::optional<SE3> T_world_camera;
+  TransformsCamera camera;
 };
 
 /// A transforms.json as nerfstudio and instant-ngp use it.
 struct TransformsFile {
-  TransformsCamera camera;              // of every frame
   std::vector<TransformsFrame> frames;  // as listed
   double depth_scale = 1000.0;          // units of a depth image a metre (of the poses)
   std::string points;                   // ply_file_path, relative to the file's folder; empty: none
+
+  /// The one camera of all frames (common_camera). `size` counts where the file gives none. InputError naming the file,
+  /// key and fault.
+  CameraFile camera(const std::string& name, const cv::Size& size) const;
 };
 
 /// Reads text; `name` stands for the file in errors. transform_matrix is camera to world with x right, y up, z backward
 /// (OpenGL); poses are returned for x right, y down, z forward. The world is the one of the stored poses, in which the
 /// points of ply_file_path are as well: applied_transform, which says how that world came from an older one, is held to
 /// be a matrix of numbers and not undone. Intrinsics of a frame count before those of the file, key by key.
-/// depth_unit_scale_factor is metres a unit of the depth images (0.001 if not said).
-/// InputError(file, key or "frame N", fault): no JSON, a key missing or of another kind, no rotation, a camera model
-/// that is not pinhole with radial and tangential distortion, frames of different cameras, names with control
-/// characters.
+/// depth_unit_scale_factor is metres a unit of the depth images (0.001 if not said). A frame whose transform_matrix is
+/// missing, null, or holds null or a number that is not finite (parse_json_object) has no pose; one frame at least must
+/// have one.
+/// InputError(file, key or "frame N", fault): no JSON (with line and column), a key missing or of another kind, no
+/// rotation, a camera model that is not pinhole with radial and tangential distortion, names with control characters.
 TransformsFile parse_transforms(const std::string& name, const std::string& text);
 
 }  // namespace odosplat

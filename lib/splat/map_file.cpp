@@ -11,18 +11,26 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/foreign_format.hpp"
 #include "odosplat/io/ply.hpp"
 #include "odosplat/io/ply_header.hpp"
+#include "odosplat/io/text_words.hpp"
+#include "odosplat/splat/broken_rows.hpp"
 #include "odosplat/splat/splat_file.hpp"
 
 namespace odosplat {
 
 namespace {
+
+constexpr float full_logit = 20.0F;          // of an opacity that no float tells from 1 (negative: from 0)
+constexpr float zero_log_scale = -23.0F;     // 1e-10 m: stands for a size of 0
+constexpr float disc_log_scale = -13.8155F;  // 1e-6 m: the thickness of a disc
 
 const std::string element_name = "vertex";
 const std::vector<std::string> format_notes = {
@@ -67,12 +75,36 @@ Eigen::Vector3f shortest_axis(const Gaussians& gaussians, std::size_t i) {
   return q.normalized() * Eigen::Vector3f::Unit(std::min_element(scale, scale + 3) - scale);
 }
 
+/// The column of a field. Integers are refused: exporters that lack a type for half floats store their bits as ushort,
+/// and no program writes whole numbers here.
+std::vector<float> column_of(const Ply& ply, const Field& field) {
+  const PlyColumn* column = ply.element(element_name).find(field.name);
+  if (column != nullptr && !std::holds_alternative<std::vector<float>>(*column) &&
+      !std::holds_alternative<std::vector<double>>(*column)) {
+    const std::string type = ply_type_name(column->index());
+    throw InputError(ply.file, element_name,
+                     field.name + " is of type " + type + ", must be float or double" +
+                         (type == "ushort" ? " (half floats stored as ushort: export the map as float)" : ""));
+  }
+  return ply.column<float>(element_name, field.name);
+}
+
+/// A value as Gaussians keep it. Opacities of 0 and 1 and a size of 0 have infinite logarithms.
+float finite_value(const Field& field, float value) {
+  if (field.name == "opacity" && std::isinf(value)) return std::copysign(full_logit, value);
+  if (field.name.starts_with("scale_") && std::isinf(value) && value < 0.0F) return zero_log_scale;
+  return value;
+}
+
 Gaussians gaussians_from_ply(const Ply& ply) {
   const std::string& path = ply.file;
   const PlyElement& vertex = ply.element(element_name);
+  std::vector<std::string> names;
+  for (const PlyProperty& property : vertex.properties) names.push_back(property.name);
+  refuse_packed_ply(path, names);
   const auto rest = static_cast<std::size_t>(
       std::count_if(vertex.properties.begin(), vertex.properties.end(),
-                    [](const PlyProperty& property) { return property.name.starts_with("f_rest_"); }));
+                    [](const PlyProperty& property) { return same_word(property.name.substr(0, 7), "f_rest_"); }));
   const std::optional<int> degree = degree_of(rest);
   if (!degree)
     throw InputError(path, "header",
@@ -80,15 +112,22 @@ Gaussians gaussians_from_ply(const Ply& ply) {
   Gaussians gaussians;
   gaussians.sh_degree = *degree;
   gaussians.resize(vertex.count);
+  // Discs in the plane of their first two axes, as 2D Gaussian splatting trains them (Huang et al. 2024).
+  const bool is_flat = vertex.has("scale_0") && vertex.has("scale_1") && !vertex.has("scale_2");
+  if (is_flat) log_info(path + ": is a map of 2-D Gaussians (two scales); they are read as flat discs");
+  BrokenRows broken(path, vertex.count);
   for (const Field& field : layout(gaussians)) {
-    const std::vector<float> column = ply.column<float>(element_name, field.name);
+    const bool is_missing = is_flat && field.name == "scale_2";
+    const std::vector<float> column =
+        is_missing ? std::vector<float>(vertex.count, disc_log_scale) : column_of(ply, field);
     for (std::size_t i = 0; i < column.size(); ++i) {
-      if (!std::isfinite(column[i]))
-        throw InputError(path, "Gaussian " + std::to_string(i), field.name + " is not finite");
-      (*field.values)[i * field.stride + field.offset] = column[i];
+      const float value = finite_value(field, column[i]);
+      if (!std::isfinite(value)) broken.add(i, field.name + " is not finite");
+      (*field.values)[i * field.stride + field.offset] = value;
     }
   }
   if (gaussians.empty()) throw InputError(path, "holds no Gaussians");
+  broken.leave_out(gaussians);
   return gaussians;
 }
 
@@ -105,17 +144,22 @@ void write_splat(const std::string& path, const Gaussians& gaussians, const std:
 
 /// What the header's comments say; none if the file is no PLY or cannot be read.
 std::vector<std::string> header_notes(const std::string& path) {
-  constexpr int most_lines = 10000;  // of a header; a file that is no PLY need not end its lines
-  const std::string comment = "comment ";
   refuse_special_file(path);
   std::ifstream file(path, std::ios::binary);
-  std::vector<std::string> notes;
-  std::string line;
-  for (int i = 0; i < most_lines && std::getline(file, line) && line != "end_header"; ++i) {
-    if (i == 0 && !line.starts_with("ply")) break;
-    if (line.starts_with(comment)) notes.push_back(line.substr(comment.size()));
+  try {
+    return read_ply_header(path, file).comments;
+  } catch (const InputError&) {
+    return {};
   }
-  return notes;
+}
+
+/// Empty if the file cannot be read.
+std::string first_bytes(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes(16, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
 }
 
 }  // namespace
@@ -130,24 +174,25 @@ bool is_splat_path(const std::string& path) {
 bool is_map_file(const std::string& path) {
   if (is_splat_path(path)) return true;
   refuse_special_file(path);
+  const std::string start = first_bytes(path);
+  const bool is_marked = start.starts_with(byte_order_mark);
+  if (!std::string_view(start).substr(is_marked ? byte_order_mark.size() : 0).starts_with("ply")) return false;
   std::ifstream in(path, std::ios::binary);
-  std::string magic(3, '\0');
-  in.read(magic.data(), 3);
-  if (magic != "ply") return false;
-  in.seekg(0);
   for (const PlyHeaderElement& element : read_ply_header(path, in).elements) {
-    if (element.name != element_name) continue;
+    if (!same_word(element.name, element_name)) continue;
     return std::any_of(element.properties.begin(), element.properties.end(),
-                       [](const PlyHeaderProperty& property) { return property.name == "f_dc_0"; });
+                       [](const PlyHeaderProperty& property) { return same_word(property.name, "f_dc_0"); });
   }
   return false;
 }
 
 Gaussians read_map(const std::string& path) {
+  refuse_foreign_format(path, first_bytes(path));
   return is_splat_path(path) ? parse_splat(path, read_file(path)) : gaussians_from_ply(read_ply(path));
 }
 
 Gaussians parse_map(const std::string& name, const std::string& bytes) {
+  refuse_foreign_format(name, bytes);
   return is_splat_path(name) ? parse_splat(name, bytes) : gaussians_from_ply(parse_ply(name, bytes));
 }
 

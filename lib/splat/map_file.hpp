@@ -17,9 +17,13 @@ namespace odosplat {
 /// element `vertex`:
 ///   x y z [m], f_dc_0..2, f_rest_0..(3K - 4) channel after channel (all of red first), opacity (logit),
 ///   scale_0..2 (ln m), rot_0..3 (w x y z)
-/// with K = (degree + 1)^2 coefficients, degree 0..3. Other properties (nx ny nz) are ignored.
-/// Throws InputError naming the file and the fault: missing file or property, a number of f_rest that fits no degree, a
-/// value that is not finite (naming the Gaussian), no Gaussians, and what read_ply refuses.
+/// with K = (degree + 1)^2 coefficients, degree 0..3; float or double. Other properties (nx ny nz) are ignored. Without
+/// scale_2 (2D Gaussian splatting) the Gaussians are discs of 1e-6 m. An infinite opacity is 1 or 0, a scale of minus
+/// infinity 1e-10 m. Gaussians with other values that are not finite are left out with one warning (BrokenRows).
+/// Throws InputError naming the file and the fault: missing file or property, a property of whole numbers (half floats
+/// stored as ushort), a number of f_rest that fits no degree, more than a tenth of the Gaussians broken (naming the
+/// first), no Gaussians, a format that is not read (refuse_foreign_format, refuse_packed_ply), and what read_ply
+/// refuses.
 Gaussians read_map(const std::string& path);
 /// The same from memory; `name` stands for the file, its extension included.
 Gaussians parse_map(const std::string& name, const std::string& bytes);

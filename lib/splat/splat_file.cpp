@@ -11,6 +11,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/little_endian.hpp"
+#include "odosplat/splat/broken_rows.hpp"
 
 namespace odosplat {
 namespace {
@@ -52,14 +53,14 @@ Gaussians parse_splat(const std::string& name, const std::string& bytes) {
   }
   Gaussians g;
   g.resize(bytes.size() / record);
+  BrokenRows broken(name, g.size());
   for (std::size_t i = 0; i < g.size(); ++i) {
     const char* at = bytes.data() + i * record;
-    const auto fail = [&](const char* fault) { throw InputError(name, "Gaussian " + std::to_string(i), fault); };
     for (std::size_t a = 0; a < 3; ++a) {
       g.positions[3 * i + a] = load_little<float>(at + 4 * a);
       const auto scale = load_little<float>(at + 12 + 4 * a);
-      if (!std::isfinite(g.positions[3 * i + a])) fail("its position is not finite");
-      if (!(std::isfinite(scale) && scale >= 0.0F)) fail("its scale is negative or not finite");
+      if (!std::isfinite(g.positions[3 * i + a])) broken.add(i, "its position is not finite");
+      if (!(std::isfinite(scale) && scale >= 0.0F)) broken.add(i, "its scale is negative or not finite");
       g.log_scales[3 * i + a] = std::max(std::log(scale), min_log_scale);
       g.sh[3 * i + a] = (byte_at(at + 24 + a) / 255.0F - 0.5F) / sh_constant;
     }
@@ -70,6 +71,7 @@ Gaussians parse_splat(const std::string& name, const std::string& bytes) {
     }
     if (!rotation.isZero(0.0F)) rotation.normalize();
   }
+  broken.leave_out(g);
   return g;
 }
 

@@ -14,9 +14,9 @@ namespace odosplat {
 ///   R G B opacity        4 x uint8, over 255
 ///   w x y z              4 x uint8, rotation as (byte - 128) / 128
 /// Gives harmonics of degree 0, unit quaternions (zero stays zero: not drawn), and opacities within a quarter of a step
-/// of 0 and 1, as logits must be finite. `name` stands for the file in errors. InputError: a length that is no multiple
-/// of 32, a value that is not finite, a standard deviation that is negative (0 becomes 1e-10 m), no
-/// Gaussians.
+/// of 0 and 1, as logits must be finite. A few Gaussians with a value that is not finite or a negative standard
+/// deviation are left out (BrokenRows); a standard deviation of 0 becomes 1e-10 m. `name` stands for the file in
+/// errors. InputError: a length that is no multiple of 32, many broken Gaussians, no Gaussians.
 Gaussians parse_splat(const std::string& name, const std::string& bytes);
 
 /// The bytes of that file: largest first (volume times opacity; equals keep their order), as viewers expect. Harmonics

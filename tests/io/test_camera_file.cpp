@@ -79,6 +79,19 @@ TEST(CameraFile, RoundTripKeepsEveryBit) {
   EXPECT_EQ(read.vignette, file.vignette);
 }
 
+TEST(CameraFile, AKeyGivenTwiceIsRefused) {
+  EXPECT_EQ(error_of([&] {
+              parse_camera_file("c.yaml", with("fx: 20") + "\nfx: 21\n");
+            }).find("c.yaml: fx: is given twice, in lines "),
+            0U);
+}
+
+TEST(CameraFile, AByteOrderMarkIsPassedOver) {
+  const CameraFile file =
+      parse_camera_file("c.yaml", "\xEF\xBB\xBFwidth: 16\nheight: 12\nfx: 20\nfy: 20\ncx: 8\ncy: 6\n");
+  EXPECT_EQ(file.camera.width, 16);
+}
+
 class CameraFileKey : public testing::TestWithParam<std::string> {};
 
 TEST_P(CameraFileKey, MissingIsNamed) {

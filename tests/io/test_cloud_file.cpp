@@ -17,6 +17,7 @@ using Eigen::Vector3f;
 using test::error_of;
 using test::TempFolder;
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 PointCloud cloud_of(const std::string& properties, const std::string& rows, int count) {
   return parse_point_cloud("c.ply", "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + "\n" +
@@ -67,9 +68,48 @@ TEST(CloudFile, ReadsColoursOfEveryKind) {
   EXPECT_LT((first(xyz + rgb("uchar"), "1 2 3 255 0 51\n") - expected).norm(), 1e-6F);
   EXPECT_LT((first(xyz + rgb("ushort"), "1 2 3 65535 0 13107\n") - expected).norm(), 1e-6F);
   EXPECT_LT((first(xyz + rgb("float"), "1 2 3 1 0 0.2\n") - expected).norm(), 1e-6F);
+  EXPECT_LT((first(xyz + rgb("ushort"), "1 2 3 255 0 51\n") - expected).norm(), 1e-6F);
+  EXPECT_LT((first(xyz + rgb("uint"), "1 2 3 65535 0 13107\n") - expected).norm(), 1e-6F);
   EXPECT_LT((first(xyz + rgb("float"), "1 2 3 255 0 51\n") - expected).norm(), 1e-6F);
+  EXPECT_LT((first(xyz + rgb("float"), "1 2 3 65535 0 13107\n") - expected).norm(), 1e-6F);
   EXPECT_LT((first(xyz + rgb("uchar", "diffuse_"), "1 2 3 255 0 51\n") - expected).norm(), 1e-6F);
   EXPECT_FALSE(cloud_of(xyz + "property uchar red\n", "1 2 3 4\n", 1).has_colors());
+}
+
+TEST(CloudFile, NamesOfPropertiesMayBeInAnyCase) {
+  const std::string upper =
+      "property float X\nproperty float Y\nproperty float Z\nproperty uchar Red\nproperty uchar Green\n"
+      "property uchar Blue\nproperty float NormalX\nproperty float NormalY\nproperty float NormalZ\n";
+  const PointCloud cloud = cloud_of(upper, "1 2 3 255 0 51 0 0 2\n", 1);
+  EXPECT_EQ(cloud.points.at(0), Vector3f(1, 2, 3));
+  EXPECT_LT((cloud.colors.at(0) - Vector3f(1.0F, 0.0F, 0.2F)).norm(), 1e-6F);
+  EXPECT_EQ(cloud.normals.at(0), Vector3f(0, 0, 1));
+}
+
+TEST(CloudFile, AByteOrderMarkBeforeTheHeaderIsPassedOver) {
+  const std::string text = "\xEF\xBB\xBFply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "end_header\n1 2 3\n";
+  EXPECT_EQ(parse_point_cloud("c.ply", text).points.at(0), Vector3f(1, 2, 3));
+}
+
+TEST(CloudFile, ColoursBeyond16BitsAreRefused) {
+  EXPECT_EQ(error_of([] { cloud_of(xyz + rgb("int"), "1 2 3 70000 0 0\n", 1); }),
+            "c.ply: vertex 1: its colour is no colour");
+}
+
+TEST(CloudFile, FormatsThatAreNotReadAreNamed) {
+  const auto fault = [](const std::string& name, const std::string& bytes) {
+    return error_of([&] { parse_point_cloud(name, bytes); });
+  };
+  EXPECT_THAT(fault("a.spz", "\x1f\x8b\x08"),
+              HasSubstr("a.spz: is a map in SPZ, which is not read: convert it to PLY"));
+  EXPECT_THAT(fault("a.bin", "NGSP"), HasSubstr("is a map in SPZ"));
+  EXPECT_THAT(fault("a.SOG", "PK\x03\x04"), HasSubstr("is a map in SOG, which is not read: convert it to PLY"));
+  EXPECT_THAT(fault("a.ksplat", "x"), HasSubstr("KSPLAT"));
+  EXPECT_THAT(fault("a.ply.gz", "\x1f\x8b\x08"), HasSubstr("is compressed (gzip)"));
+  EXPECT_THAT(fault("a.zip", "PK\x03\x04"), HasSubstr("is a ZIP archive"));
+  EXPECT_THAT(fault("a.e57", "ASTM-E57"), HasSubstr("E57"));
+  EXPECT_THAT(error_of([] { cloud_of("property uint packed_position\nproperty uint packed_color\n", "1 2\n", 1); }),
+              HasSubstr("c.ply: is a compressed PLY (SuperSplat), which is not read: export it uncompressed"));
 }
 
 TEST(CloudFile, PropertiesMayComeInAnyOrderAndType) {

@@ -94,6 +94,9 @@ TEST(CloudPcd, ColoursOfEveryKind) {
   const Vector3f expected(1.0F, 0.0F, 0.2F);
   EXPECT_LT((color("r g b", "1 1 1", "U U U", "255 0 51") - expected).norm(), 1e-6F);
   EXPECT_LT((color("r g b", "2 2 2", "U U U", "65535 0 13107") - expected).norm(), 1e-6F);
+  EXPECT_LT((color("Red Green Blue", "2 2 2", "U U U", "255 0 51") - expected).norm(), 1e-6F);
+  EXPECT_LT((color("r g b", "4 4 4", "U U U", "65535 0 13107") - expected).norm(), 1e-6F);
+  EXPECT_LT((color("r g b", "4 4 4", "F F F", "65535 0 13107") - expected).norm(), 1e-6F);
   EXPECT_LT((color("r g b", "4 4 4", "F F F", "1 0 0.2") - expected).norm(), 1e-6F);
   EXPECT_LT((color("red green blue", "4 4 4", "F F F", "255 0 51") - expected).norm(), 1e-6F);
   // Packed into the bits of a float, printed as one: 0x00ff0033 is near the smallest normal number.
@@ -102,6 +105,15 @@ TEST(CloudPcd, ColoursOfEveryKind) {
   EXPECT_EQ(parse_point_cloud("c.pcd", header + "1 2 3 nan\n").colors.at(0), Vector3f::Zero());
   const std::string integer = test::pcd_header("x y z rgba", "4 4 4 4", "F F F I", "1 1 1 1", 1, "ascii");
   EXPECT_LT((parse_point_cloud("c.pcd", integer + "1 2 3 -65485\n").colors.at(0) - expected).norm(), 1e-6F);
+}
+
+TEST(CloudPcd, NamesOfFieldsMayBeInAnyCase) {
+  const std::string header = test::pcd_header("X Y Z RGB NormalX NormalY NormalZ", "4 4 4 4 4 4 4", "F F F U F F F",
+                                              "1 1 1 1 1 1 1", 1, "ascii");
+  const PointCloud cloud = parse_point_cloud("c.pcd", "\xEF\xBB\xBF" + header + "1 2 3 16711731 0 0 2\n");
+  EXPECT_EQ(cloud.points.at(0), Vector3f(1, 2, 3));
+  EXPECT_LT((cloud.colors.at(0) - Vector3f(1.0F, 0.0F, 0.2F)).norm(), 1e-6F);
+  EXPECT_EQ(cloud.normals.at(0), Vector3f(0, 0, 1));
 }
 
 TEST(CloudPcd, OfOldVersionsLacksLines) {

@@ -56,6 +56,33 @@ TEST(CloudText, ColoursAreOver255IfAnyIsAboveOne) {
   EXPECT_EQ(cloud.colors.back(), Vector3f(1, 0, 0));
 }
 
+TEST(CloudText, NamedColoursAre16BitsIfAnyIsAbove255) {
+  const PointCloud cloud =
+      read("\"X\",\"Y\",\"Z\",\"Red\",\"Green\",\"Blue\"\n1,2,3,65535,0,13107\n4,5,6,200,0,0\n", "c.csv");
+  EXPECT_LT((cloud.colors.at(0) - Vector3f(1.0F, 0.0F, 0.2F)).norm(), 1e-6F);
+  EXPECT_NEAR(cloud.colors.at(1).x(), 200.0F / 65535.0F, 1e-7F);
+}
+
+// Rounded sums of weights: 0..1 all the same.
+TEST(CloudText, ColoursOfUnitRangeMayOvershootALittle) {
+  EXPECT_EQ(read("x y z r g b\n1 2 3 1.0002 0.5 0\n").colors.at(0), Vector3f(1.0F, 0.5F, 0.0F));
+}
+
+TEST(CloudText, ByteOrderMarksArePassedOver) {
+  const PointCloud named = read("\xEF\xBB\xBFx,y,z,r,g,b\n1,2,3,255,0,51\n", "c.csv");
+  ASSERT_EQ(named.size(), 1U);
+  EXPECT_TRUE(named.has_colors());
+  EXPECT_EQ(read("\xEF\xBB\xBF"
+                 "1 2 3\n4 5 6\n")
+                .size(),
+            2U);
+  EXPECT_EQ(read("\xEF\xBB\xBF# comment\n1 2 3\n").size(), 1U);
+  EXPECT_EQ(fault(std::string("\xFF\xFE"
+                              "1\0 \0",
+                              6)),
+            "c.txt: is a text in UTF-16; save it as UTF-8");
+}
+
 TEST(CloudText, ColumnsWithoutNames) {
   EXPECT_FALSE(read("1 2 3 99\n").has_colors());
   EXPECT_EQ(read("1 2 3 255 0 0\n").colors.at(0), Vector3f(1, 0, 0));
@@ -82,7 +109,9 @@ TEST(CloudText, FaultsNameTheLine) {
   EXPECT_EQ(fault("1 2 3\n1 1e999 3\n"), "c.txt: line 2: `1e999` is not a number");
   EXPECT_EQ(fault("1,5;2,5;3,5\n"), "c.txt: line 1: neither holds numbers nor names columns x y z: `1,5;2,5;3,5`");
   EXPECT_EQ(fault("1 2 3 4 5 300\n"), "c.txt: line 1: its colour is no colour of 0..255 or 0..1");
-  EXPECT_EQ(fault("x y z r g b\n1 2 3 4 5 -1\n"), "c.txt: line 2: its colour is no colour of 0..255 or 0..1");
+  EXPECT_EQ(fault("x y z r g b\n1 2 3 4 5 -1\n"), "c.txt: line 2: its colour is no colour of 0..65535, 0..255 or 0..1");
+  EXPECT_EQ(fault("x y z r g b\n1 2 3 4 5 65536\n"),
+            "c.txt: line 2: its colour is no colour of 0..65535, 0..255 or 0..1");
   EXPECT_EQ(fault("east north up\n1 2 3\n"),
             "c.txt: line 1: neither holds numbers nor names columns x y z: `east north up`");
   EXPECT_EQ(fault("# nothing\n"), "c.txt: holds no point");

@@ -197,8 +197,38 @@ TEST(ColmapImages, NamesEveryFault) {
   EXPECT_THAT(fault("1 1 0 0 0 0 0 x 7 a.png\n\n"), HasSubstr("`x` is not a number"));
   EXPECT_THAT(fault("1 1 0 0 0 0 0 0 -7 a.png\n\n"), HasSubstr("`-7` is not the number of a camera"));
   EXPECT_THAT(fault(good + good), HasSubstr("image a.png: is listed twice"));
-  // The empty lines forgotten: the second image would be taken for pixels.
+  // The empty lines forgotten: the second image would be taken for pixels, whatever the number of words in its name.
+  EXPECT_THAT(fault("1 1 0 0 0 0 0 0 7 a.png\n2 1 0 0 0 0 0 0 7 b 0 1.png\n"),
+              HasSubstr("line 2: expected the pixels"));
+  EXPECT_THAT(fault("1 1 0 0 0 0 0 0 7 a.png\n1.5 2.5 0.5\n"), HasSubstr("line 2: expected the pixels"));
   EXPECT_THAT(fault("1 1 0 0 0 0 0 0 7 a.png\n2 1 0 0 0 0 0 0 7 b.png\n"), HasSubstr("line 2: expected the pixels"));
+}
+
+TEST(ColmapImages, APoseThatIsNotFiniteIsNone) {
+  const auto images = parse_colmap_images_text(
+      "i.txt", "1 nan nan nan nan 0 0 0 7 a.png\n\n2 1 0 0 0 -inf 0 0 7 b.png\n\n3 1 0 0 0 0 0 0 7 c  d e.png\n\n");
+  ASSERT_EQ(images.size(), 3U);
+  EXPECT_FALSE(images[0].T_world_camera);
+  EXPECT_FALSE(images[1].T_world_camera);
+  EXPECT_TRUE(images[2].T_world_camera);
+  EXPECT_EQ(images[2].name, "c  d e.png");
+  ColmapModel model = tiny_model();
+  model.images[1].T_camera_world = SE3(Eigen::Quaterniond::Identity(), {0, std::nan(""), 0});
+  const TempFolder temp;
+  put(temp, "", model, true);
+  put_images(temp, "", model);
+  const Sequence s = Sequence::open(temp.path());
+  EXPECT_TRUE(s.T_world_camera(0));
+  EXPECT_FALSE(s.T_world_camera(1));  // f2
+  EXPECT_EQ(s.truth().size(), 2U);
+}
+
+TEST(ColmapText, ByteOrderMarksArePassedOver) {
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(parse_colmap_cameras_text("c", mark + tiny_model().cameras_text()).size(), 1U);
+  EXPECT_EQ(parse_colmap_images_text("i", mark + tiny_model().images_text()).size(), 3U);
+  EXPECT_EQ(parse_colmap_points_text("p", mark + tiny_model().points_text()).size(), 2U);
+  EXPECT_EQ(parse_colmap_images_text("i", mark + "1 1 0 0 0 0 0 0 7 a.png\n\n").size(), 1U);
 }
 
 TEST(ColmapBinary, NeverTrustsWhatItPromises) {
@@ -242,7 +272,12 @@ TEST(SequenceColmap, RefusesSeveralCamerasUnlessOneIsGiven) {
   model.cameras[1].parameters[0] = 20.5;
   put(temp, "", model, false);
   EXPECT_THAT(error_of([&] { Sequence::open(temp.path()); }),
-              HasSubstr("images.txt: image f10.png: has another camera than a/f3.png"));
+              HasSubstr("images.txt: image f10.png: has another camera than image a/f3.png"));
+  model.cameras[1].parameters[0] = 20.125;
+  put(temp, "", model, false);
+  EXPECT_EQ(Sequence::open(temp.path()).camera().fx, 20.0);  // the median
+  model.cameras[1].parameters[0] = 20.5;
+  put(temp, "", model, false);
   SequenceOptions options;
   options.camera_file = temp.put("c.yaml", "width: 16\nheight: 12\nfx: 30\nfy: 30\ncx: 7.5\ncy: 5.5\n");
   EXPECT_EQ(Sequence::open(temp.path(), options).camera().fx, 30.0);

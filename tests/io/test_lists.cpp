@@ -94,6 +94,28 @@ TEST(PairList, DepthIsFirstUnlessNamesSayOtherwise) {
   EXPECT_EQ(parse_pair_list("l", "1 a.png 1 b.png\n").at(0).depth_path, "a.png");
 }
 
+TEST(PairList, NamesOfImagesMayHoldBlanks) {
+  const auto pairs = parse_pair_list("l", "1.5 rgb/a  1.png 1.25 depth/a 1.PNG\n2.5 rgb/b.png 2.25 depth/b.png\n");
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_EQ(pairs[0].color_path, "rgb/a  1.png");
+  EXPECT_EQ(pairs[0].depth_path, "depth/a 1.PNG");
+  EXPECT_EQ(pairs[0].depth_id, 1.25);
+  EXPECT_EQ(pairs[0].color_text, "1.5");
+  EXPECT_TRUE(pairs[0].has_times());
+  EXPECT_FALSE(parse_pair_list("l", "1 d 1 c\n").at(0).has_times());
+  EXPECT_THAT(error_of([] { parse_pair_list("l", "1 d 1 c 5\n"); }), HasSubstr("l: line 1: has more than"));
+}
+
+TEST(ImageList, AByteOrderMarkIsPassedOver) {
+  EXPECT_EQ(parse_image_list("l",
+                             "\xEF\xBB\xBF"
+                             "1.5 a.png\n")
+                .at(0)
+                .time,
+            1.5);
+  EXPECT_EQ(parse_image_list("l", "1.5 a  b c.png\n").at(0).path, "a  b c.png");
+}
+
 TEST(PairList, FaultsAreNamed) {
   EXPECT_THAT(error_of([] { parse_pair_list("l", "0 depth/0.png 0\n"); }), HasSubstr("l: line 1: expected"));
   EXPECT_THAT(error_of([] { parse_pair_list("l", "0 depth/0.png rgb/0.png 0\n"); }),

@@ -229,6 +229,8 @@ TEST(SequenceTum, FaultsNameTheFile) {
   EXPECT_EQ(error_of([&] { Sequence::open(temp.path()).depth(1); }), depth + ": is neither PNG nor JPEG");
 
   temp.put("groundtruth.txt", pose_line("10.000", 0) + "10.1 nan 2 3 0 0 0 1\n");
+  EXPECT_FALSE(Sequence::open(temp.path()).T_world_camera(1));
+  temp.put("groundtruth.txt", pose_line("10.000", 0) + "nan 1 2 3 0 0 0 1\n");
   EXPECT_EQ(open_error(), temp / "groundtruth.txt" + ": line 2: `nan` is not finite");
   temp.put("groundtruth.txt", pose_line("10.000", 0));
   temp.put("camera.yaml", "width: 16\nheight: 12\nfy: 21\ncx: 7.5\ncy: 5.5\n");
@@ -369,9 +371,9 @@ TEST(SequenceSevenScenes, IsFoundFromTheSceneAndTheSequence) {
     EXPECT_NEAR(s.depth(2)(0, 0), 1.2F, 1e-6F);
   }
   EXPECT_EQ(Sequence::open(temp / "redkitchen/seq-01/").name(), "seq-01");
-  temp.put("redkitchen/seq-01/frame-000001.pose.txt", "1 0 0 0\n0 nan 0 0\n0 0 1 0\n0 0 0 1\n");
+  temp.put("redkitchen/seq-01/frame-000001.pose.txt", "1 0 0 0\n0 no 0 0\n0 0 1 0\n0 0 0 1\n");
   EXPECT_EQ(error_of([&] { Sequence::open(temp / "redkitchen"); }),
-            temp / "redkitchen/seq-01/frame-000001.pose.txt" + ": line 2: `nan` is not finite");
+            temp / "redkitchen/seq-01/frame-000001.pose.txt" + ": line 2: `no` is not a number");
   fs::create_directories(temp / "redkitchen/seq-02");
   EXPECT_EQ(error_of([&] { Sequence::open(temp / "redkitchen"); }),
             temp / "redkitchen" + ": holds several sequences, name one: seq-01, seq-02");
@@ -399,7 +401,8 @@ TEST(SequenceReplica, ReadsItsCameraFromTheFolderOrAbove) {
     return error_of([&] { Sequence::open(temp / "office0"); });
   };
   const std::string file = temp / "office0/cam_params.json";
-  EXPECT_EQ(fault("{"), file + ": is not JSON");
+  EXPECT_THAT(fault("{\n"), StartsWith(file + ": line 2, column 1: is not JSON: "));
+  EXPECT_EQ(fault("[]"), file + ": is not a JSON object");
   EXPECT_EQ(fault("{}"), file + ": camera: is missing");
   EXPECT_EQ(fault(R"({"camera": {"w": 16}})"), file + ": h: is missing");
   EXPECT_EQ(fault(R"({"camera": {"w": "16", "h": 12}})"), file + ": w: is not a number");

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "odosplat/io/cloud_file.hpp"
+#include "odosplat/io/json_text.hpp"
 #include "odosplat/io/sequence.hpp"
 #include "odosplat/io/transforms_file.hpp"
 #include "temp_folder.hpp"
@@ -115,17 +116,73 @@ TEST(TransformsFile, TakesCamerasOfFrames) {
     frame["p2"] = -0.1;
   }
   const TransformsFile read = parse_transforms("t", file.dump());
-  const CameraFile camera = read.camera.camera("t", {});
+  const CameraFile camera = read.camera("t", {});
   EXPECT_EQ(camera.camera.fx, 25.0);
   EXPECT_EQ(camera.distortion, (std::vector<double>{0.1, 0, 0, -0.1, 0.3}));
   file["frames"][2]["k1"] = 0.2;
-  EXPECT_THAT(error_of([&] { parse_transforms("t", file.dump()); }),
+  EXPECT_THAT(error_of([&] { parse_transforms("t", file.dump()).camera("t", {}); }),
               HasSubstr("t: frame 3 (images/7.png): has another camera than frame 1 (images/9.png)"));
+}
+
+TEST(TransformsFile, CamerasThatDifferByLessThanHalfAPixelAreOne) {
+  const double focal[] = {20.1, 20.3, 20.0};
+  json file = tiny();
+  for (std::size_t i = 0; i < 3; ++i) file["frames"][i]["fl_x"] = focal[i];
+  EXPECT_EQ(parse_transforms("t", file.dump()).camera("t", {}).camera.fx, 20.1);
+  file["frames"][1]["fl_x"] = 20.7;
+  EXPECT_EQ(
+      error_of([&] { parse_transforms("t", file.dump()).camera("t", {}); }),
+      "t: frame 2 (images/8.png): has another camera than frame 1 (images/9.png) (their intrinsics differ by 0.60 "
+      "px); a sequence has one (split the file by camera, or --camera)");
+  file["frames"][1]["fl_x"] = 20.1;
+  file["frames"][1]["w"] = 20;
+  EXPECT_THAT(error_of([&] { parse_transforms("t", file.dump()).camera("t", {}); }), HasSubstr("(another size)"));
+}
+
+TEST(TransformsFile, FramesMayLackAPose) {
+  const auto without = [](const std::string& written) {
+    json file = tiny();
+    file["frames"][1]["transform_matrix"] = "here";
+    std::string text = file.dump();
+    text.replace(text.find("\"here\""), 6, written);
+    const TransformsFile read = parse_transforms("t", text);
+    return read.frames[0].T_world_camera && !read.frames[1].T_world_camera && read.frames[2].T_world_camera;
+  };
+  EXPECT_TRUE(without("null"));
+  EXPECT_TRUE(without("[[NaN, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]"));
+  EXPECT_TRUE(without("[[1, 0, 0, -Infinity], [0, 1, 0, Infinity], [0, 0, 1, 0]]"));
+  json file = tiny();
+  file["frames"][0].erase("transform_matrix");
+  EXPECT_FALSE(parse_transforms("t", file.dump()).frames[0].T_world_camera);
+  for (json& frame : file["frames"]) frame["transform_matrix"] = nullptr;
+  EXPECT_EQ(error_of([&] { parse_transforms("t", file.dump()); }),
+            "t: frame 1: transform_matrix: is missing or not finite, as in every frame");
+}
+
+TEST(JsonText, FaultsNameLineAndColumn) {
+  const auto fault = [](const std::string& text) { return error_of([&] { parse_json_object("j", text); }); };
+  EXPECT_EQ(fault("{\n \"a\": [1, 2,\n ]}\n"), "j: line 3, column 2: is not JSON: there is a comma before `]`");
+  EXPECT_EQ(fault("{\"a\": 1,}"), "j: line 1, column 9: is not JSON: there is a comma before `}`");
+  EXPECT_THAT(fault("{\"a\": NaN, \"b\": nan}"), HasSubstr("j: line 1, column 18: is not JSON: "));
+  EXPECT_THAT(fault("{\"a\": Infinity, \"b\": x}"), HasSubstr("j: line 1, column 22: is not JSON: "));
+  EXPECT_THAT(fault("{\n\n"), HasSubstr("j: line 3, column 1: is not JSON: "));
+  EXPECT_THAT(fault(""), HasSubstr("j: line 1, column 1: is not JSON: "));
+  EXPECT_THAT(fault("{\"a\": \"\xff\"}"), HasSubstr("j: line 1, column 8: is not JSON: "));
+  EXPECT_EQ(fault("[1]"), "j: is not a JSON object");
+}
+
+TEST(JsonText, NumbersThatPythonAddsAreNull) {
+  const json read = parse_json_object(
+      "j", "\xEF\xBB\xBF{\"a\": NaN, \"b\": [-Infinity,Infinity,-NaN], \"NaN\": \"is \\\"NaN, \\\\\", \"c\": NaN}");
+  EXPECT_TRUE(read["a"].is_null());
+  EXPECT_EQ(read["b"], json({nullptr, nullptr, nullptr}));
+  EXPECT_EQ(read["NaN"], "is \"NaN, \\");
+  EXPECT_TRUE(read["c"].is_null());
 }
 
 TEST(TransformsFile, NamesEveryFault) {
   const auto fault = [](const json& file) {
-    return error_of([&] { parse_transforms("t.json", file.dump()).camera.camera("t.json", {}); });
+    return error_of([&] { parse_transforms("t.json", file.dump()).camera("t.json", {}); });
   };
   const auto with = [](const char* key, const json& value) {
     json file = tiny();
@@ -137,7 +194,7 @@ TEST(TransformsFile, NamesEveryFault) {
     file["frames"][1][key] = value;
     return file;
   };
-  EXPECT_THAT(error_of([] { parse_transforms("t.json", "{"); }), HasSubstr("t.json: is not a JSON object"));
+  EXPECT_THAT(error_of([] { parse_transforms("t.json", "{"); }), HasSubstr("t.json: line 1, column 2: is not JSON"));
   EXPECT_THAT(fault(json::array()), HasSubstr("is not a JSON object"));
   EXPECT_THAT(fault(with("frames", json::array())), HasSubstr("frames: lists no image"));
   EXPECT_THAT(fault(with("frames", 3)), HasSubstr("frames: is missing or no list"));
@@ -157,9 +214,6 @@ TEST(TransformsFile, NamesEveryFault) {
   EXPECT_THAT(fault(with_frame("transform_matrix", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 2, 0}})),
               HasSubstr("frame 2: transform_matrix: the matrix is no rotation"));
   json file = tiny();
-  file["frames"][0].erase("transform_matrix");
-  EXPECT_THAT(fault(file), HasSubstr("frame 1: transform_matrix: is missing"));
-  file = tiny();
   file["frames"][0].erase("file_path");
   EXPECT_THAT(fault(file), HasSubstr("frame 1: file_path: is missing"));
   file = tiny();
@@ -167,6 +221,49 @@ TEST(TransformsFile, NamesEveryFault) {
   EXPECT_THAT(fault(file), HasSubstr("fl_x: is missing, and so is camera_angle_x"));
   file["camera_angle_x"] = 4.0;
   EXPECT_THAT(fault(file), HasSubstr("camera_angle_x: is not an angle in 0..pi"));
+}
+
+TEST(SequenceNerfstudio, ReadsPathsOfWindows) {
+  const TempFolder temp;
+  json file = tiny();
+  for (json& frame : file["frames"]) {
+    std::string path = frame["file_path"];
+    path.replace(path.find('/'), 1, "\\");
+    frame["file_path"] = path;
+  }
+  file["frames"][1]["depth_file_path"] = ".\\depth\\8.png";
+  put(temp, file);
+  const Sequence s = Sequence::open(temp.path());
+  EXPECT_EQ(s.size(), 3U);
+  EXPECT_EQ(s.depth(1).cols, 16);
+}
+
+TEST(SequenceNerfstudio, FindsImagesWithoutTheirExtension) {
+  for (const char* ending : {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG"}) {
+    const TempFolder temp;
+    json file = tiny();
+    for (int k = 0; k < 3; ++k) {
+      const std::string name = "images/frame_" + std::to_string(k);
+      file["frames"][static_cast<std::size_t>(k)]["file_path"] = name;
+      temp.put_image(name + ending, cv::Mat3b(12, 16, cv::Vec3b::all(40)));
+    }
+    temp.put("transforms.json", file.dump());
+    EXPECT_EQ(Sequence::open(temp.path()).size(), 3U) << ending;
+    std::filesystem::remove(temp / "images/frame_1" + ending);
+    EXPECT_THAT(error_of([&] { Sequence::open(temp.path()); }),
+                HasSubstr("images/frame_1.png: is missing, and so is that name with .jpg or .jpeg"));
+  }
+}
+
+TEST(SequenceNerfstudio, ANamedCameraCountsBeforeCamerasOfFrames) {
+  const TempFolder temp;
+  json file = tiny();
+  file["frames"][1]["fl_x"] = 30.0;
+  put(temp, file);
+  EXPECT_THAT(error_of([&] { Sequence::open(temp.path()); }), HasSubstr("has another camera than"));
+  SequenceOptions options;
+  options.camera_file = temp.put("c.yaml", "width: 16\nheight: 12\nfx: 33\nfy: 33\ncx: 7.5\ncy: 5.5\n");
+  EXPECT_EQ(Sequence::open(temp.path(), options).camera().fx, 33.0);
 }
 
 TEST(SequenceNerfstudio, SaysWhatIsMissing) {

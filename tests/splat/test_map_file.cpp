@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -189,6 +191,101 @@ TEST_F(MapFile, ReadsAsciiInAnyOrderAndType) {
   EXPECT_THAT(g.rotations, testing::ElementsAre(1, 0, 0, 0));
   EXPECT_THAT(g.log_scales, testing::ElementsAre(-4, -5, -6));
   EXPECT_THAT(g.opacity_logits, testing::ElementsAre(2));
+}
+
+// x y z, f_dc_0..2, opacity, scale_0..2, rot_0..3
+std::string ascii_map(const std::vector<std::string>& rows, const std::string& type = "float",
+                      const std::string& left_out = "") {
+  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(rows.size()) + "\n";
+  for (const char* name : {"x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2",
+                           "rot_0", "rot_1", "rot_2", "rot_3"}) {
+    if (name != left_out) text += "property " + type + " " + name + "\n";
+  }
+  text += "end_header\n";
+  for (const std::string& row : rows) text += row + "\n";
+  return text;
+}
+/// what() of the InputError that parsing ends with; empty if it does not.
+std::string parse_fault(const std::string& text) {
+  try {
+    parse_map("m.ply", text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+const std::string good_row = "1 2 3 0.1 0.2 0.3 2 -4 -5 -6 1 0 0 0";
+
+TEST_F(MapFile, OpacitiesOfZeroAndOneHaveInfiniteLogits) {
+  const Gaussians g = parse_map(
+      "m.ply", ascii_map({"1 2 3 0.1 0.2 0.3 inf -4 -5 -6 1 0 0 0", "1 2 3 0.1 0.2 0.3 -inf -4 -5 -inf 1 0 0 0"}));
+  ASSERT_EQ(g.size(), 2U);
+  EXPECT_EQ(1.0F / (1.0F + std::exp(-g.opacity_logits[0])), 1.0F);
+  EXPECT_LT(1.0F / (1.0F + std::exp(-g.opacity_logits[1])), 1e-6F);
+  EXPECT_EQ(g.log_scales[5], -23.0F);
+}
+
+TEST_F(MapFile, AFewBrokenRowsAreLeftOutAndNamed) {
+  std::vector<std::string> rows(20, good_row);
+  rows[3] = "4 nan 3 0.1 0.2 0.3 2 -4 -5 -6 1 0 0 0";
+  rows[7] = "4 2 3 0.1 0.2 0.3 2 -4 inf -6 1 0 nan 0";
+  rows[19] = "9 2 3 0.1 0.2 0.5 2 -4 -5 -6 1 0 0 0";
+  testing::internal::CaptureStderr();
+  const Gaussians g = parse_map("m.ply", ascii_map(rows));
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(said, HasSubstr("m.ply: 2 of 20 Gaussians are broken and left out (Gaussian 3: y is not finite)"));
+  ASSERT_EQ(g.size(), 18U);
+  g.check();
+  EXPECT_EQ(g.positions[3 * 17], 9.0F);
+  EXPECT_EQ(g.sh[3 * 17 + 2], 0.5F);
+  for (std::size_t i = 0; i < 17; ++i) EXPECT_EQ(g.positions[3 * i], 1.0F);
+  rows[0] = rows[3];
+  EXPECT_EQ(parse_fault(ascii_map(rows)), "m.ply: Gaussian 0: y is not finite; 3 of 20 Gaussians are broken");
+}
+
+TEST_F(MapFile, TwoScalesAreFlatDiscs) {
+  const Gaussians g = parse_map("m.ply", ascii_map({"1 2 3 0.1 0.2 0.3 2 -4 -5 1 0 0 0"}, "float", "scale_2"));
+  EXPECT_THAT(g.log_scales, testing::ElementsAre(-4, -5, -13.8155F));
+  // Another scale that is missing stays a fault.
+  EXPECT_EQ(parse_fault(ascii_map({"1 2 3 0.1 0.2 0.3 2 -4 -5 1 0 0 0"}, "float", "scale_1")),
+            "m.ply: vertex: has no property scale_1");
+}
+
+TEST_F(MapFile, WholeNumbersAreRefusedByPropertyAndType) {
+  const std::string row = "1 2 3 4 5 6 7 8 9 10 11 12 13 14";
+  EXPECT_EQ(
+      parse_fault(ascii_map({row}, "ushort")),
+      "m.ply: vertex: x is of type ushort, must be float or double (half floats stored as ushort: export the map as "
+      "float)");
+  EXPECT_EQ(parse_fault(ascii_map({row}, "int")), "m.ply: vertex: x is of type int, must be float or double");
+  EXPECT_EQ(parse_map("m.ply", ascii_map({row}, "double")).size(), 1U);
+}
+
+TEST_F(MapFile, NamesMayBeInAnyCaseBehindAByteOrderMark) {
+  std::string text = ascii_map({good_row});
+  for (const char* name : {" x", " y", " z", " f_dc_0", " opacity", " scale_0", " rot_0"}) {
+    std::string upper = name;
+    for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    text.replace(text.find(std::string(name) + "\n"), upper.size(), upper);
+  }
+  text.insert(text.find("element"), "comment blend_order distance\n");
+  text = "\xEF\xBB\xBF" + text;
+  EXPECT_EQ(parse_map("m.ply", text).positions, (std::vector<float>{1, 2, 3}));
+  write_text("m.ply", text);
+  EXPECT_TRUE(is_map_file(path("m.ply")));
+  EXPECT_EQ(read_blend_order(path("m.ply")), BlendOrder::distance);
+}
+
+TEST_F(MapFile, FormatsThatAreNotReadAreNamed) {
+  write_text("m.spz", std::string("\x1f\x8b\x08\0", 4));
+  EXPECT_THAT(fault("m.spz"), HasSubstr("is a map in SPZ, which is not read: convert it to PLY first"));
+  write_text("m.sog", "PK\x03\x04");
+  EXPECT_THAT(fault("m.sog"), HasSubstr("is a map in SOG, which is not read: convert it to PLY first"));
+  write_text("m.compressed.ply",
+             "ply\nformat ascii 1.0\nelement chunk 1\nproperty float min_x\nelement vertex 1\nproperty uint "
+             "packed_position\nproperty uint packed_rotation\nend_header\n1\n2 3\n");
+  EXPECT_THAT(fault("m.compressed.ply"), HasSubstr("is a compressed PLY (SuperSplat), which is not read"));
+  EXPECT_FALSE(is_map_file(path("m.spz")));
 }
 
 TEST_F(MapFile, FaultsNameTheFile) {

@@ -137,6 +137,13 @@ TEST(SplatFile, FaultsAreNamed) {
   EXPECT_EQ(parse_splat("m.splat", record({0, 0, 0, 1, 1, 0}, bytes)).log_scales[2], -23.0F);
 }
 
+TEST(SplatFile, AFewBrokenRowsAreLeftOut) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::string bytes;
+  for (int i = 0; i < 10; ++i) bytes += i == 4 ? record({nan, 0, 0, 1, 1, 1}, std::vector<int>(8, 128)) : one;
+  EXPECT_EQ(parse_splat("m.splat", bytes).size(), 9U);
+}
+
 TEST(SplatFile, MapsAreReadAndWrittenByExtension) {
   const test::Scratch scratch;
   const Gaussians g = parse_splat("m.splat", one);
