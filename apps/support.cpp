@@ -3,6 +3,7 @@
 #include "support.hpp"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
@@ -20,12 +21,18 @@ namespace odosplat::apps {
 namespace {
 
 std::atomic<bool> interrupt_flag{false};
+std::atomic<bool> end_at_once{false};
 
 constexpr int exit_internal = 1;
 constexpr int exit_bad_input = 2;
 constexpr int exit_interrupted = 130;
 
 extern "C" void on_interrupt(int) {
+  if (end_at_once) {
+    constexpr char words[] = "\nodosplat: interrupted\n";
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, words, sizeof(words) - 1);
+    std::_Exit(exit_interrupted);
+  }
   if (interrupt_flag.exchange(true)) std::_Exit(exit_interrupted);
 }
 
@@ -102,6 +109,15 @@ void catch_interrupts() {
 }
 
 bool interrupted() { return interrupt_flag; }
+
+EndAtOnce::EndAtOnce() {
+  end_at_once = true;
+  if (!interrupted()) return;
+  end_at_once = false;
+  throw Interrupted();
+}
+
+EndAtOnce::~EndAtOnce() { end_at_once = false; }
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 

@@ -28,6 +28,16 @@ void print_profile(const Common& common, const compute::Context& context);
 void catch_interrupts();
 bool interrupted();
 
+/// While it lives, the first Ctrl-C or SIGTERM ends the process at once with exit status 130: for long work that asks
+/// nobody and has nothing to save. Throws Interrupted if the signal has come before. One at a time.
+class EndAtOnce {
+ public:
+  EndAtOnce();
+  ~EndAtOnce();
+  EndAtOnce(const EndAtOnce&) = delete;
+  EndAtOnce& operator=(const EndAtOnce&) = delete;
+};
+
 /// Largest resident size of this process so far [MB].
 double peak_memory_mb();
 
