@@ -2,6 +2,8 @@
 // Copyright 2026 The odosplat authors
 #include "cloud_files.hpp"
 
+#include <cmath>
+
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/cloud_file.hpp"
@@ -34,7 +36,7 @@ PointCloud read_thinned(const std::vector<std::string>& files, double voxel, con
 }
 
 PointCloud read_cloud(const std::string& file, double voxel, bool drop_outliers) {
-  require(voxel >= 0.0, "voxel", "at least 0 [m]");
+  require(voxel >= 0.0 && std::isfinite(voxel), "voxel", "finite, at least 0 [m]");
   const PointCloud cloud = voxel > 0.0 ? read_thinned({file}, voxel, Eigen::Vector3d::Zero()) : read_point_cloud(file);
   return drop_outliers ? without_outliers(cloud) : cloud;
 }

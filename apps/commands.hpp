@@ -23,6 +23,7 @@ void add_cloud(CLI::App& app, Common& common);
 void add_align(CLI::App& app, Common& common);
 void add_convert(CLI::App& app, Common& common);
 void add_train(CLI::App& app, Common& common);
+void add_map(CLI::App& app, Common& common);
 void add_render(CLI::App& app, Common& common);
 void add_track(CLI::App& app, Common& common);
 void add_relocalise(CLI::App& app, Common& common);

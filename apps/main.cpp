@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   apps::add_align(app, common);
   apps::add_convert(app, common);
   apps::add_train(app, common);
+  apps::add_map(app, common);
   apps::add_render(app, common);
   apps::add_track(app, common);
   apps::add_relocalise(app, common);

@@ -9,6 +9,7 @@
 
 #include "cloud_files.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/io/cloud_file.hpp"
 #include "odosplat/map/interpolation_view.hpp"
 #include "odosplat/map/surfel_view.hpp"
@@ -122,6 +123,8 @@ OpenedView open_view(const Common& common, const std::string& method, const MapF
   switch (preset.view) {
     case ViewKind::gaussians: {
       const Gaussians gaussians = without_half(read_map(needed(method, "--map", flags.map)), flags.without_half);
+      const std::optional<MapQuality> quality = read_map_quality(flags.map);
+      if (quality && !quality->good) log_warning(flags.map + ": its header says: " + quality->verdict);
       GaussianViewOptions options = view_options(flags.map);
       options.depth_mode = flags.depth.empty() ? preset.depth_mode : depth_mode(flags.depth);
       opened.device = open_device(common);

@@ -10,59 +10,30 @@
 
 #include "cloud_files.hpp"
 #include "json_text.hpp"
+#include "map_quality_json.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
-#include "odosplat/map/interpolation_view.hpp"
-#include "odosplat/splat/cloud_colors.hpp"
 #include "odosplat/splat/map_file.hpp"
+#include "odosplat/splat/map_quality.hpp"
 #include "odosplat/splat/sigma_calibration.hpp"
+#include "stages.hpp"
+#include "train_start.hpp"
+#include "train_views.hpp"
 
 namespace odosplat::apps {
 namespace {
 
-/// Every Nth posed frame of some sequences, read from disk when asked for.
-class SequenceViews : public TrainingViews {
- public:
-  SequenceViews(const TrainJob& job) {
-    const FrameRange range = job.frames.empty() ? FrameRange() : parse_frames(job.frames);
-    for (const std::string& path : job.sequences) {
-      sequences_.push_back(Sequence::open(path, job.sequence_options));
-      for (const std::size_t frame : posed_frames(sequences_.back(), job.every, range)) {
-        frames_.push_back({sequences_.size() - 1, frame});
-      }
-    }
-  }
-  int count() const override { return static_cast<int>(frames_.size()); }
-  Camera camera(int i) const override { return sequence(i).camera(); }
-  SE3 T_world_camera(int i) const override { return *sequence(i).T_world_camera(at(i).frame); }
-  ColorImage color(int i) override { return sequence(i).color(at(i).frame); }
-  DepthImage depth(int i) override {
-    return sequence(i).has_depth(at(i).frame) ? sequence(i).depth(at(i).frame) : DepthImage();
-  }
-
- private:
-  struct Place {
-    std::size_t sequence;
-    std::size_t frame;
-  };
-  const Place& at(int i) const { return frames_[static_cast<std::size_t>(i)]; }
-  const Sequence& sequence(int i) const { return sequences_[at(i).sequence]; }
-
-  std::vector<Sequence> sequences_;
-  std::vector<Place> frames_;
-};
-
 TrainerOptions trainer_options(const TrainJob& job, int views) {
   TrainerOptions options = TrainerOptions::preset(job.preset, views);
-  if (job.iterations >= 0) options.iterations = job.iterations;
+  options.iterations = job.iterations.value_or(options.iterations);
   options.seed = job.seed;
   if (!job.densify.empty()) options.densify.method = densify_method(job.densify);
   if (job.budget > 0) options.densify.budget = job.budget;
   if (job.exposure == "on") options.exposure.rate = 1e-3;
   if (job.exposure == "off") options.exposure.rate = 0.0;
-  if (job.depth_weight >= 0.0) options.depth.weight = job.depth_weight;
+  options.depth.weight = job.depth_weight.value_or(options.depth.weight);
   if (is_splat_path(job.out)) options.rasterizer.order = BlendOrder::depth;
   if (!job.blend_order.empty()) options.rasterizer.order = blend_order(job.blend_order);
   return options;
@@ -72,7 +43,7 @@ InitializeOptions initialize_options(const TrainJob& job) {
   InitializeOptions options = InitializeOptions::preset(job.preset);
   options.budget = job.budget;
   options.seed = job.seed;
-  if (job.sh_degree >= 0) options.sh_degree = job.sh_degree;
+  options.sh_degree = job.sh_degree.value_or(options.sh_degree);
   return options;
 }
 
@@ -83,33 +54,17 @@ std::string progress_text(const TrainingStep& step, const TrainingReport& report
   return text;
 }
 
-void write_report(const TrainJob& job, const TrainingReport& report, const compute::Context& device) {
-  if (job.report.empty()) return;
-  nlohmann::ordered_json json{{"iterations", report.iterations},
-                              {"gaussians", report.gaussians},
-                              {"seconds", report.seconds},
-                              {"iterations_per_second", report.iterations_per_second},
-                              {"psnr_db", report.psnr_db},
-                              {"peak_memory_mb", peak_memory_mb()},
-                              {"preset", job.preset},
-                              {"seed", job.seed},
-                              {"device", device.device().name},
-                              {"version", ODOSPLAT_VERSION}};
-  if (device.profiling()) {
-    nlohmann::ordered_json& stages = json["stages_ms"];  // a step, not the whole run
-    for (const compute::StageTime& stage : device.stage_times())
-      stages[stage.stage] = stage.milliseconds / std::max(1, report.iterations);
-  }
-  write_file_atomically(job.report, json_text(json));
-}
-
 std::string checkpoint_file(const TrainJob& job) { return job.out + ".checkpoint"; }
 
 /// Goes on from the last checkpoint where one is wanted and there is one.
 void take_up(const TrainJob& job, Trainer& trainer) {
   const std::string file = checkpoint_file(job);
-  if (!job.resume) return;
-  if (!std::filesystem::exists(file)) {
+  const bool there = std::filesystem::is_regular_file(file);
+  if (!job.resume) {
+    if (there) log_warning(file + " of an earlier run is replaced: --resume would go on from it");
+    return;
+  }
+  if (!there) {
     log_info("no checkpoint " + file + ": training starts at the beginning");
     return;
   }
@@ -122,73 +77,159 @@ void take_up(const TrainJob& job, Trainer& trainer) {
   log_info("going on from iteration " + std::to_string(trainer.iteration()) + " of " + file);
 }
 
-/// Steps until all are done or Ctrl-C, with checkpoints.
+/// A checkpoint that cannot be written costs no training: a full disk may have room again at the next one.
+bool save(const TrainJob& job, const Trainer& trainer) {
+  try {
+    trainer.checkpoint().write(checkpoint_file(job));
+    return true;
+  } catch (const InputError& e) {
+    log_warning("no checkpoint after iteration " + std::to_string(trainer.iteration()) + ": " + e.what());
+    return false;
+  }
+}
+
+/// Steps until all are done, with checkpoints. After Ctrl-C a checkpoint and Interrupted.
 void run(const TrainJob& job, Trainer& trainer) {
+  const SavesWhenInterrupted saves;
   Progress progress("train", trainer.options().iterations, trainer.iteration());
   while (!trainer.done() && !interrupted()) {
     const TrainingStep step = trainer.step();
     progress.update(step.iteration, progress_text(step, trainer.report()));
-    if (job.checkpoint_every > 0 && step.iteration % job.checkpoint_every == 0 && !trainer.done())
-      trainer.checkpoint().write(checkpoint_file(job));
+    if (job.checkpoint_every > 0 && step.iteration % job.checkpoint_every == 0 && !trainer.done()) save(job, trainer);
   }
   progress.finish();
-  if (!trainer.done()) {
-    trainer.checkpoint().write(checkpoint_file(job));
+  if (trainer.done()) return;
+  if (save(job, trainer))
     log_info("stopped after iteration " + std::to_string(trainer.iteration()) + "; --resume goes on from " +
-             checkpoint_file(job));
-  }
+             checkpoint_file(job) + "; no map is written");
+  throw Interrupted();
 }
 
-/// The map with its settings, where its images were taken, and how sure its depth is.
-void write_result(const TrainJob& job, const compute::Context& device, const Trainer& trainer, TrainingViews& views,
-                  MapView* surface, double shared_sigma) {
-  const Gaussians gaussians = trainer.gaussians();
-  std::vector<std::string> notes = trainer.options().describe();
+/// What the map is worth, and the lines of its header: settings, where its images were taken, how sure its depth is.
+struct Finished {
+  std::vector<ViewQuality> views;
+  MapQuality quality;
+  std::vector<std::string> notes;
+};
+
+Finished finish(const compute::Context& device, const Trainer& trainer, const Gaussians& gaussians,
+                const TrainingStart& prepared, SequenceViews& views) {
+  Stages stages("finish", 2);
+  Finished f;
+  stages.next("judging the map by its images");
+  f.views = view_qualities(device, gaussians, views, prepared.surface.get(), trainer.exposures(),
+                           trainer.options().rasterizer);
+  f.quality = judge_map(f.views, prepared.coverage, prepared.consistency, prepared.doubt);
+  f.notes = trainer.options().describe();
+  f.notes.push_back("iterations_done " + std::to_string(trainer.iteration()));
+  for (const std::string& line : f.quality.to_lines()) f.notes.push_back(line);
   std::vector<SE3> poses;
   for (int i = 0; i < views.count(); ++i) poses.push_back(views.T_world_camera(i));
-  for (const std::string& line : place_lines(thinned_places(poses))) notes.push_back(line);
-  if (surface != nullptr) {
-    SigmaCalibrationOptions options;
-    options.rasterizer = trainer.options().rasterizer;
-    options.shared_sigma = shared_sigma;
-    for (const std::string& line : calibrated_sigma(device, gaussians, views, *surface, options).to_lines())
-      notes.push_back(line);
+  for (const std::string& line : place_lines(thinned_places(poses))) f.notes.push_back(line);
+  if (prepared.surface == nullptr) return f;
+  stages.next("how sure the map's depth is");
+  SigmaCalibrationOptions options;
+  options.rasterizer = trainer.options().rasterizer;
+  options.shared_sigma = prepared.shared_sigma;
+  for (const std::string& line : calibrated_sigma(device, gaussians, views, *prepared.surface, options).to_lines())
+    f.notes.push_back(line);
+  return f;
+}
+
+nlohmann::ordered_json json_of_views(const std::vector<ViewQuality>& qualities, const SequenceViews& views) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < qualities.size(); ++k) {
+    const ViewQuality& q = qualities[k];
+    const int view = static_cast<int>(k);
+    nlohmann::ordered_json row{{"sequence", views.sequence_name(view)},
+                               {"frame", views.frame(view)},
+                               {"psnr_db", q.psnr_db},
+                               {"depth_error_m", nullptr},
+                               {"covered", q.covered},
+                               {"disagrees", q.odd}};
+    if (q.depth_error_m >= 0.0) row["depth_error_m"] = q.depth_error_m;
+    rows.push_back(std::move(row));
   }
-  write_map(job.out, gaussians, notes);
+  return rows;
+}
+
+void write_report(const TrainJob& job, const TrainingReport& report, const Finished& finished,
+                  const SequenceViews& views, const compute::Context& device) {
+  if (job.report.empty()) return;
+  nlohmann::ordered_json json{{"iterations", report.iterations},
+                              {"gaussians", report.gaussians},
+                              {"seconds", report.seconds},
+                              {"iterations_per_second", report.iterations_per_second},
+                              {"psnr_db", report.psnr_db},
+                              {"undone", report.undone},
+                              {"peak_memory_mb", peak_memory_mb()},
+                              {"preset", job.preset},
+                              {"seed", job.seed},
+                              {"device", device.device().name},
+                              {"version", ODOSPLAT_VERSION},
+                              {"quality", json_of(finished.quality)},
+                              {"images", json_of_views(finished.views, views)}};
+  if (device.profiling()) {
+    nlohmann::ordered_json& stages = json["stages_ms"];  // a step, not the whole run
+    for (const compute::StageTime& stage : device.stage_times())
+      stages[stage.stage] = stage.milliseconds / std::max(1, report.iterations);
+  }
+  write_file_atomically(job.report, json_text(json));
+}
+
+/// What disagrees with the rest, by name, a few of them.
+void name_odd_images(const std::vector<ViewQuality>& qualities, const SequenceViews& views) {
+  constexpr int most = 5;
+  std::string names;
+  int count = 0;
+  for (std::size_t k = 0; k < qualities.size(); ++k) {
+    if (!qualities[k].odd || ++count > most) continue;
+    const int view = static_cast<int>(k);
+    names += (names.empty() ? "" : ", ") + views.sequence_name(view) + " " + std::to_string(views.frame(view));
+  }
+  if (count > 0)
+    log_warning("images that disagree with the rest (wrong poses, or things that moved): frames " + names +
+                (count > most ? ", ... (" + std::to_string(count) + ")" : ""));
 }
 
 }  // namespace
 
-TrainingReport train_map(const Common& common, const TrainJob& job) {
+TrainOutcome train_map(const Common& common, const TrainJob& job) {
   const InitializeOptions initial = initialize_options(job);
+  initial.check();
   ensure_output_file(job.out);
   if (!job.report.empty()) ensure_output_file(job.report);
-  SequenceViews views(job);
+  SequenceViews views(job.sequences, job.sequence_options, job.every,
+                      job.frames.empty() ? FrameRange() : parse_frames(job.frames));
   const TrainerOptions options = trainer_options(job, views.count());
-  PointCloud cloud = read_cloud(job.cloud, job.voxel, job.remove_outliers);
-  if (!cloud.has_colors()) color_from_views(cloud, views);
+  options.check();
+  const TrainingStart prepared = prepare_training(job.cloud, job.voxel, job.remove_outliers, initial, views);
+  if (prepared.doubt)
+    log_warning("the images disagree on the colours of the cloud's points: likely cause: " +
+                prepared.doubt->hypothesis.words());
   const compute::Context device = open_device(common);
-  const Gaussians start = gaussians_from_cloud(cloud, initial);
-  std::unique_ptr<InterpolationView> surface;
-  double shared_sigma = 0.0;
-  if (initial.shape == InitialShape::discs) {
-    const PointCloud smoothed = smoothed_cloud(cloud, initial);
-    surface = std::make_unique<InterpolationView>(smoothed);
-    shared_sigma = noise_left(cloud, smoothed, initial);
-  }
-  log_info("training " + std::to_string(start.size()) + " Gaussians on " + std::to_string(views.count()) + " images");
-  Trainer trainer(device, options, start, views, surface.get());
+  log_info("training " + std::to_string(prepared.start.size()) + " Gaussians on " + std::to_string(views.count()) +
+           " images");
+  Trainer trainer(device, options, prepared.start, views, prepared.surface.get());
   take_up(job, trainer);
-  const SavesWhenInterrupted saves;
   run(job, trainer);
   const TrainingReport report = trainer.report();
-  // After Ctrl-C nobody wants to wait for the calibration.
-  write_result(job, device, trainer, views, trainer.done() ? surface.get() : nullptr, shared_sigma);
-  if (trainer.done()) std::filesystem::remove(checkpoint_file(job));
-  write_report(job, report, device);
+  const bool saved = save(job, trainer);  // judging takes time, and may be interrupted
+  const Gaussians gaussians = trainer.gaussians();
+  const Finished finished = finish(device, trainer, gaussians, prepared, views);
+  try {
+    write_map(job.out, gaussians, finished.notes);
+  } catch (const InputError& e) {
+    throw InputError(std::string(e.what()) + (saved ? "; what was trained is kept in " + checkpoint_file(job) +
+                                                          ": --resume writes the map from it"
+                                                    : "; nor could a checkpoint be written"));
+  }
+  if (saved) std::filesystem::remove(checkpoint_file(job));
+  write_report(job, report, finished, views, device);
   print_profile(common, device);
-  if (!trainer.done()) throw Interrupted();
-  return report;
+  name_odd_images(finished.views, views);
+  if (!finished.quality.good) log_warning(job.out + ": " + finished.quality.verdict);
+  return {report, finished.quality};
 }
 
 void add_train(CLI::App& app, Common& common) {
@@ -204,12 +245,16 @@ void add_train(CLI::App& app, Common& common) {
   command->add_option("--every", job->every, "train on every Nth frame")->check(CLI::PositiveNumber);
   command->add_option("--frames", job->frames, frames_help);
   command->add_option("--preset", job->preset, "default, or paper (the recipe of the paper's code)");
-  command->add_option("--iterations", job->iterations,
-                      "steps of one image each (default: 4000, and at least 8 an image; paper: 20000)");
-  command->add_option(
-      "--budget", job->budget,
-      "most Gaussians: of the cloud's points, and that densification grows to; 0 = one a point, and the preset's "
-      "limit of growth (default: 150000, paper: none)");
+  command
+      ->add_option("--iterations", job->iterations,
+                   "steps of one image each (default: 4000, and at least 8 an image; paper: 20000)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option(
+          "--budget", job->budget,
+          "most Gaussians: of the cloud's points, and that densification grows to; 0 = one a point, and the preset's "
+          "limit of growth (default: 150000, paper: none)")
+      ->check(CLI::NonNegativeNumber);
   command->add_option(
       "--densify", job->densify,
       "none, relocate (the dead move to where the images need them, and grow to the budget) or split (clone "
@@ -217,28 +262,36 @@ void add_train(CLI::App& app, Common& common) {
   command
       ->add_option("--exposure", job->exposure, "learn the exposure of each image: on or off (default: the preset's)")
       ->check(CLI::IsMember({"", "on", "off"}));
-  command->add_option("--depth-weight", job->depth_weight,
-                      "weight of the cloud's depth beside the images (default: the preset's)");
-  command->add_option("--sh-degree", job->sh_degree,
-                      "degree of the colours' spherical harmonics, 0..3 (default: the preset's)");
+  command
+      ->add_option("--depth-weight", job->depth_weight,
+                   "weight of the cloud's depth beside the images (default: the preset's)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--sh-degree", job->sh_degree,
+                   "degree of the colours' spherical harmonics, 0..3 (default: the preset's)")
+      ->check(CLI::Range(0, 3));
   command
       ->add_option("--blend-order", job->blend_order,
                    "what Gaussians are sorted by when they are blended: distance from the camera, which makes better "
                    "maps, or depth, which other programs expect (default: the preset's, depth for a .splat)")
       ->check(CLI::IsMember({"", "distance", "depth"}));
   command
-      ->add_option("--checkpoint-every", job->checkpoint_every,
-                   "iterations between checkpoints (OUT.checkpoint, removed at the end), 0 = only on Ctrl-C")
+      ->add_option(
+          "--checkpoint-every", job->checkpoint_every,
+          "iterations between checkpoints (OUT.checkpoint, removed at the end), 0 = only at the end and on Ctrl-C, "
+          "which leaves OUT as it was")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--resume", job->resume,
                     "go on from OUT.checkpoint if there is one: the same bits as without a stop");
-  command->add_option("--seed", job->seed, "seed of every random choice");
+  command->add_option("--seed", job->seed, "seed of every random choice")->check(CLI::NonNegativeNumber);
   command->add_option("--report", job->report, "report to write (JSON)");
   command->final_callback([&common, job] {
-    const TrainingReport report = train_map(common, *job);
+    const TrainOutcome outcome = train_map(common, *job);
+    const TrainingReport& report = outcome.training;
     std::printf("%s: %zu Gaussians, %d iterations in %s (%.1f it/s), PSNR %.2f dB on the training images\n",
                 job->out.c_str(), report.gaussians, report.iterations, format_duration(report.seconds).c_str(),
                 report.iterations_per_second, report.psnr_db);
+    std::printf("the map is %s\n", outcome.quality.verdict.c_str());
   });
 }
 

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "odosplat/splat/initialize.hpp"
+#include "odosplat/splat/map_quality.hpp"
 #include "odosplat/splat/trainer.hpp"
 #include "sequence_flags.hpp"
 #include "support.hpp"
@@ -23,20 +26,26 @@ struct TrainJob {
   int every = 10;
   std::string frames;  // "A:B" of every sequence; empty: all
   std::string preset = "default";
-  int iterations = -1;  // < 0: the preset's
+  std::optional<int> iterations;  // none: the preset's
   std::uint64_t seed = 42;
-  std::size_t budget = 0;      // Gaussians, 0: one a point
-  std::string densify;         // empty: the preset's
-  std::string exposure;        // on, off; empty: the preset's
-  std::string blend_order;     // empty: the preset's; depth for a .splat, which cannot say otherwise
-  int sh_degree = -1;          // < 0: the preset's
-  double depth_weight = -1.0;  // < 0: the preset's
-  int checkpoint_every = 500;  // iterations, 0: never
+  std::size_t budget = 0;              // Gaussians, 0: one a point
+  std::string densify;                 // empty: the preset's
+  std::string exposure;                // on, off; empty: the preset's
+  std::string blend_order;             // empty: the preset's; depth for a .splat, which cannot say otherwise
+  std::optional<int> sh_degree;        // none: the preset's
+  std::optional<double> depth_weight;  // none: the preset's
+  int checkpoint_every = 500;          // iterations, 0: never
   bool resume = false;
 };
 
-/// Makes map.ply from a cloud and posed images, and the report if asked. Checkpoints go to OUT.checkpoint, which is
-/// removed at the end. After Ctrl-C the map as it is then and a checkpoint are written, and Interrupted thrown.
-TrainingReport train_map(const Common& common, const TrainJob& job);
+struct TrainOutcome {
+  TrainingReport training;
+  MapQuality quality;
+};
+
+/// Makes map.ply from a cloud and posed images, judges it, and writes the report if asked. Checkpoints go to
+/// OUT.checkpoint, which is removed at the end; one that cannot be written is a warning, and tried again. After Ctrl-C
+/// a checkpoint is written, OUT stays as it was, and Interrupted is thrown. InputError if no image sees the cloud.
+TrainOutcome train_map(const Common& common, const TrainJob& job);
 
 }  // namespace odosplat::apps

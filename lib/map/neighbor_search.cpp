@@ -27,6 +27,21 @@ struct NeighborSearch::Tree {
   std::unique_ptr<Index> index;
 };
 
+namespace {
+
+/// The k nearest so far. Once all of them lie in the query itself, nothing comes nearer: without that, a search among
+/// points that coincide looks at every one of them, and a search for each of N takes N^2 steps.
+class NearestSet : public nanoflann::KNNResultSet<float, int> {
+ public:
+  using nanoflann::KNNResultSet<float, int>::KNNResultSet;
+  float worstDist() const {  // NOLINT(readability-identifier-naming): nanoflann's name
+    const float worst = nanoflann::KNNResultSet<float, int>::worstDist();
+    return worst > 0.0F ? worst : -1.0F;
+  }
+};
+
+}  // namespace
+
 NeighborSearch::NeighborSearch(const std::vector<Eigen::Vector3f>& points) : tree_(std::make_unique<Tree>(points)) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) throw InputError("cloud", "point " + std::to_string(i), "is not finite");
@@ -39,8 +54,10 @@ NeighborSearch::~NeighborSearch() = default;
 
 int NeighborSearch::nearest(const Eigen::Vector3f& query, int k, int* indices, float* squared_distances) const {
   if (!tree_->index || k <= 0) return 0;
-  return static_cast<int>(
-      tree_->index->knnSearch(query.data(), static_cast<std::size_t>(k), indices, squared_distances));
+  NearestSet set(static_cast<std::size_t>(k));
+  set.init(indices, squared_distances);
+  tree_->index->findNeighbors(set, query.data(), {});
+  return static_cast<int>(set.size());
 }
 
 }  // namespace odosplat

@@ -9,8 +9,9 @@
 namespace odosplat {
 
 /// Nearest neighbours among 3D points, by a kd-tree.
-/// The points are not copied: they must outlive the search and stay as they are. Throws InputError naming the first
-/// point that is not finite. nearest() may be called from several threads at once; the same call gives the same answer.
+/// The points are not copied and may coincide: they must outlive the search and stay as they are. Throws InputError
+/// naming the first point that is not finite. nearest() may be called from several threads at once; the same call gives
+/// the same answer.
 class NeighborSearch {
  public:
   explicit NeighborSearch(const std::vector<Eigen::Vector3f>& points);

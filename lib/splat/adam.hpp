@@ -33,6 +33,7 @@ class Adam {
   /// Holds parameters at or below bound, element by element (same size). Queued.
   void limit(compute::Buffer<float>& parameters, const compute::Buffer<float>& bound);
   long steps() const { return steps_; }
+  int stride() const { return stride_; }
 
   struct State {
     std::vector<float> first, second;  // both moments, as large as the parameters; empty before the first step

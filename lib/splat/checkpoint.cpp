@@ -50,6 +50,18 @@ const std::string& Checkpoint::find(const std::string& name) const {
   return found->second;
 }
 
+void Checkpoint::put_all(const std::string& prefix, const Checkpoint& other) {
+  for (const auto& [name, data] : other.entries_) entries_[prefix + name] = data;
+}
+
+Checkpoint Checkpoint::behind(const std::string& prefix) const {
+  Checkpoint part;
+  part.path_ = path_;
+  for (const auto& [name, data] : entries_)
+    if (name.starts_with(prefix)) part.entries_[name.substr(prefix.size())] = data;
+  return part;
+}
+
 void Checkpoint::write(const std::string& path) const {
   std::string bytes(title);
   for (const auto& [name, data] : entries_) {

@@ -34,6 +34,11 @@ class Checkpoint {
   }
   std::string get_text(const std::string& name) const { return find(name); }
 
+  /// All entries of another one, their names behind `prefix`; and those behind it, with the names they had.
+  void put_all(const std::string& prefix, const Checkpoint& other);
+  Checkpoint behind(const std::string& prefix) const;
+  bool empty() const { return entries_.empty(); }
+
   /// Written beside its place and renamed: a run that is killed meanwhile leaves the one before. InputError if it
   /// cannot be written.
   void write(const std::string& path) const;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "odosplat/core/error.hpp"
@@ -97,6 +98,9 @@ void DensifyOptions::check() const {
   require(growth >= 0.0 && growth <= 1.0, "densify_growth", "in 0..1");
   require(pull > 0.0, "densify_pull", "positive");
   require(split_size > 0.0, "split_size", "positive");
+  require(least_split_px >= 0.0, "least_split_px", "at least 0");
+  require(most_split_px > 0.0 && most_split_px >= least_split_px, "most_split_px",
+          "positive and no less than the least");
   require(largest_size > 0.0, "largest_size", "positive");
   require(reset_interval == 0 || reset_interval > 100, "reset_interval", "0 or above 100");
   require(reset_opacity > 0.0 && reset_opacity < 1.0, "reset_opacity", "between 0 and 1");
@@ -190,8 +194,15 @@ void relocate(TrainingRows& rows, const DensifyOptions& options, Random& random)
   }
 }
 
-void clone_and_split(TrainingRows& rows, const DensifyOptions& options, const std::vector<float>& pulls,
-                     const std::vector<float>& seen, double camera_extent, Random& random) {
+DensifySizes densify_sizes(const DensifyOptions& options, double camera_extent, double pixel, bool growth_limited) {
+  DensifySizes sizes{options.split_size * camera_extent, options.largest_size * camera_extent};
+  if (pixel > 0.0) sizes.split = std::clamp(sizes.split, options.least_split_px * pixel, options.most_split_px * pixel);
+  if (growth_limited) sizes.largest = std::numeric_limits<double>::infinity();
+  return sizes;
+}
+
+void clone_and_split(TrainingRows& rows, const DensifyOptions& options, const DensifySizes& sizes,
+                     const std::vector<float>& pulls, const std::vector<float>& seen, Random& random) {
   const std::size_t n = rows.size();
   const auto mean_pull = [&](std::size_t i) { return seen[i] > 0.0F ? pulls[i] / seen[i] : 0.0F; };
   std::vector<std::size_t> pulled;
@@ -202,7 +213,7 @@ void clone_and_split(TrainingRows& rows, const DensifyOptions& options, const st
   if (options.budget > 0) pulled.resize(std::min(pulled.size(), options.budget > n ? options.budget - n : 0));
 
   for (const std::size_t i : pulled) {
-    const bool split = largest_axis(rows.gaussians, i) > options.split_size * camera_extent;
+    const bool split = largest_axis(rows.gaussians, i) > sizes.split;
     if (split) {
       for (std::size_t a = 0; a < 3; ++a)
         rows.gaussians.log_scales[3 * i + a] -= static_cast<float>(std::log(split_shrinkage));
@@ -217,8 +228,8 @@ void clone_and_split(TrainingRows& rows, const DensifyOptions& options, const st
   }
   std::vector<bool> wanted(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
-    wanted[i] = opacity_of(rows.gaussians, i) >= options.dead_opacity &&
-                largest_axis(rows.gaussians, i) <= options.largest_size * camera_extent;
+    wanted[i] =
+        opacity_of(rows.gaussians, i) >= options.dead_opacity && largest_axis(rows.gaussians, i) <= sizes.largest;
   // A map that would be left with nothing keeps what it has.
   if (std::find(wanted.begin(), wanted.end(), true) != wanted.end()) rows.keep(wanted);
 }

@@ -21,17 +21,21 @@ enum class DensifyMethod {
 
 struct DensifyOptions {
   DensifyMethod method = DensifyMethod::none;
-  std::size_t budget = 0;      // most Gaussians, 0: relocate adds none, split has no limit
-  int from = 500;              // first iteration
-  int interval = 100;          // iterations between two rounds, >= 1
-  double until_share = 0.8;    // share of all iterations after which it ends, 0..1
-  double dead_opacity = 0.02;  // relocate: moved, split: removed below this, 0..1
-  double growth = 0.05;        // relocate: share by which their number may grow in a round, >= 0
-  double pull = 2e-4;          // split: mean gradient on the screen [loss / half image] from which one is doubled, > 0
-  double split_size = 0.01;    // split: largest axis [camera extents] from which it is split, not cloned, > 0
-  double largest_size = 0.5;   // split: removed if an axis is longer [camera extents], > 0
-  int reset_interval = 0;      // split: opacities fall to reset_opacity this often [iterations], 0: never
-  double reset_opacity = 0.2;  // 0..1, both excluded
+  std::size_t budget = 0;       // most Gaussians, 0: relocate adds none, split has no limit
+  int from = 500;               // first iteration
+  int interval = 100;           // iterations between two rounds, >= 1
+  double until_share = 0.8;     // share of all iterations after which it ends, 0..1
+  double dead_opacity = 0.02;   // relocate: moved, split: removed below this, 0..1
+  double growth = 0.05;         // relocate: share by which their number may grow in a round, >= 0
+  double pull = 2e-4;           // split: mean gradient on the screen [loss / half image] from which one is doubled, > 0
+  double split_size = 0.01;     // split: largest axis [camera extents] from which it is split, not cloned, > 0 ...
+  double least_split_px = 0.5;  // ... held between these sizes in the images [px], >= 0: what is smaller than a pixel
+  double most_split_px = 4.0;   // need not be halved, what covers several hides detail; cameras that hardly move, or
+                                // cross a building, say nothing of either; 0 and infinity: the extent alone
+  double largest_size = 0.5;    // split: removed if an axis is longer [camera extents], > 0; where growth is limited
+                                // none is removed for its size
+  int reset_interval = 0;       // split: opacities fall to reset_opacity this often [iterations], 0: never
+  double reset_opacity = 0.2;   // 0..1, both excluded
 
   /// Throws InputError naming the field.
   void check() const;
@@ -63,11 +67,21 @@ struct TrainingRows {
 /// third axis keeps its thickness.
 void relocate(TrainingRows& rows, const DensifyOptions& options, Random& random);
 
-/// pulls [N] and seen [N] as screen_statistics.cl sums them; camera_extent [m].
+/// Sizes [m] that clone_and_split decides by.
+struct DensifySizes {
+  double split = 0.0;    // a Gaussian whose largest axis is longer is split, else cloned
+  double largest = 0.0;  // and removed beyond this
+};
+
+/// camera_extent [m]: largest distance of a camera from the cameras' mean; pixel [m]: width of a pixel at the distance
+/// of what is seen, 0: unknown; growth_limited: no Gaussian grows without limit, so that none is too large.
+DensifySizes densify_sizes(const DensifyOptions& options, double camera_extent, double pixel, bool growth_limited);
+
+/// pulls [N] and seen [N] as screen_statistics.cl sums them.
 /// Source: Kerbl et al. 2023, section 5.2. Differs: with a budget, the most pulled come first and the rest waits; no
 /// limit on size in pixels.
-void clone_and_split(TrainingRows& rows, const DensifyOptions& options, const std::vector<float>& pulls,
-                     const std::vector<float>& seen, double camera_extent, Random& random);
+void clone_and_split(TrainingRows& rows, const DensifyOptions& options, const DensifySizes& sizes,
+                     const std::vector<float>& pulls, const std::vector<float>& seen, Random& random);
 
 /// Size of N Gaussians of opacity `shared_opacity` in one place, over that of the one of `opacity` they replace.
 double relocated_size_ratio(double opacity, double shared_opacity, int n);

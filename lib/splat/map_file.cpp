@@ -231,6 +231,15 @@ std::vector<SE3> read_map_places(const std::string& path) {
   }
 }
 
+std::optional<MapQuality> read_map_quality(const std::string& path) {
+  const std::vector<std::string> notes = header_notes(path);
+  try {
+    return MapQuality::from_lines(notes);
+  } catch (const InputError& e) {
+    throw InputError(path, "header", e.what());
+  }
+}
+
 void write_map(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
   gaussians.check();
   if (gaussians.empty()) throw InputError(path, "there are no Gaussians to write");

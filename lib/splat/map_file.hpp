@@ -2,12 +2,14 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "odosplat/splat/blend_order.hpp"
 #include "odosplat/splat/gaussians.hpp"
 #include "odosplat/splat/map_places.hpp"
+#include "odosplat/splat/map_quality.hpp"
 #include "odosplat/splat/sigma_model.hpp"
 
 namespace odosplat {
@@ -50,6 +52,10 @@ BlendOrder read_blend_order(const std::string& path);
 /// Where the map's training images were taken, thinned, from the header's comments "training_view ..." (place_lines);
 /// none where there are no such comments. InputError if they are broken.
 std::vector<SE3> read_map_places(const std::string& path);
+
+/// What training said the map is worth, from the header's comments "quality_..." (MapQuality::to_lines); none where
+/// there are none. InputError if they are broken.
+std::optional<MapQuality> read_map_quality(const std::string& path);
 
 /// Writes a .splat file if the path ends so (degree 0 only, quantised; a warning says what is lost, `notes` have no
 /// place), else that PLY layout, binary little endian, floats, with nx ny nz = direction of the shortest axis (unit

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <sstream>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/kernels/constants.h"
+#include "odosplat/splat/view_lengths.hpp"
 
 namespace odosplat {
 
@@ -25,16 +28,6 @@ double median_size(const Gaussians& gaussians) {
   const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
   std::nth_element(size.begin(), middle, size.end());
   return std::exp(static_cast<double>(*middle));
-}
-
-/// Largest distance of a camera from the mean of all [m]; 1 where all stand in one place.
-double camera_extent(const TrainingViews& views) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (int i = 0; i < views.count(); ++i) mean += views.T_world_camera(i).translation() / views.count();
-  double extent = 0.0;
-  for (int i = 0; i < views.count(); ++i)
-    extent = std::max(extent, (views.T_world_camera(i).translation() - mean).norm());
-  return extent > 0.0 ? extent : 1.0;
 }
 
 double log_linear(double first, double last, double share) { return first * std::pow(last / first, share); }
@@ -113,7 +106,8 @@ Trainer::Trainer(const compute::Context& context, const TrainerOptions& options,
       screen_statistics_(compute::Program(context, {"screen_statistics.cl"}).kernel("screen_statistics", "densify")),
       position_length_(options.position_length == PositionLength::gaussian_size ? median_size(initial)
                                                                                 : camera_extent(views)),
-      camera_extent_(camera_extent(views)),
+      densify_sizes_(densify_sizes(options.densify, camera_extent(views), pixel_width(initial, views),
+                                   options.largest_growth > 0.0)),
       start_(checksum_of_start(initial, views)),
       psnr_db_(static_cast<std::size_t>(views.count()), -1.0),
       depth_errors_(static_cast<std::size_t>(views.count()), -1.0) {
@@ -181,9 +175,30 @@ TrainingStep Trainer::step() {
     psnr_db_[static_cast<std::size_t>(view)] = last_.value.psnr_db();
     if (with_depth()) depth_errors_[static_cast<std::size_t>(view)] = last_.depth_error;
   }
+  guard_.add(iteration_, level, last_.value.psnr_db());
+  if (iteration_ % TrainingGuard::interval == 0 || done()) guard();
   if (densifies()) densify();
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return last_;
+}
+
+void Trainer::guard() {
+  const TrainingGuard::Verdict verdict = guard_.judge();
+  if (verdict == TrainingGuard::Verdict::best) best_ = state();
+  if (verdict != TrainingGuard::Verdict::fallen) return;
+  const int fallen_at = iteration_;
+  const bool densified =
+      undone_ == 0 && options_.densify.method != DensifyMethod::none && fallen_at > options_.densify.from;
+  set_state(best_);
+  guard_.went_back();
+  ++undone_;
+  // Steps that end as badly without densification would do so for ever.
+  ended_early_ = !densified || iteration_ > options_.densify.until_share * options_.iterations;
+  char numbers[96];
+  std::snprintf(numbers, sizeof(numbers), "fell from %.1f to %.1f dB by step %d", guard_.best_db(), guard_.last_db(),
+                fallen_at);
+  log_warning(std::string("training ") + numbers + ": back at step " + std::to_string(iteration_) +
+              (ended_early_ ? ", where it ends" : ", from where it goes on without densification"));
 }
 
 void Trainer::update() {
@@ -208,6 +223,7 @@ void Trainer::update() {
 
 bool Trainer::densifies() const {
   const DensifyOptions& d = options_.densify;
+  if (undone_ > 0 || ended_early_) return false;
   return d.method != DensifyMethod::none && iteration_ >= d.from && iteration_ % d.interval == 0 &&
          iteration_ <= d.until_share * options_.iterations;
 }
@@ -224,7 +240,7 @@ void Trainer::densify() {
     if (d.method == DensifyMethod::relocate)
       relocate(rows, d, random);
     else
-      clone_and_split(rows, d, pulls_.download(), seen_.download(), camera_extent_, random);
+      clone_and_split(rows, d, densify_sizes_, pulls_.download(), seen_.download(), random);
     gaussians_.upload(context_, rows.gaussians);
     if (!largest_log_scales_.empty()) largest_log_scales_ = compute::Buffer<float>(context_, rows.largest_log_scales);
     if (!anchors_.empty()) anchors_ = compute::Buffer<float>(context_, rows.anchors);
@@ -235,8 +251,10 @@ void Trainer::densify() {
     }
   }
   if (d.method == DensifyMethod::split && d.reset_interval > 0 && iteration_ > d.reset_interval &&
-      iteration_ % d.reset_interval < d.interval)
+      iteration_ % d.reset_interval < d.interval) {
     reset_opacities();
+    guard_.pause(iteration_ + d.reset_interval / 2);
+  }
 }
 
 void Trainer::reset_opacities() {
@@ -258,6 +276,7 @@ TrainingReport Trainer::report() const {
   report.iterations_per_second = seconds_ > 0.0 ? iteration_ / seconds_ : 0.0;
   report.psnr_db = mean_of_known(psnr_db_);
   report.depth_error = mean_of_known(depth_errors_);
+  report.undone = undone_;
   return report;
 }
 

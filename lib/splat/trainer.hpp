@@ -8,6 +8,7 @@
 #include "odosplat/splat/checkpoint.hpp"
 #include "odosplat/splat/device_gaussians.hpp"
 #include "odosplat/splat/trainer_options.hpp"
+#include "odosplat/splat/training_guard.hpp"
 #include "odosplat/splat/training_targets.hpp"
 
 namespace odosplat {
@@ -28,6 +29,7 @@ struct TrainingReport {
   double iterations_per_second = 0.0;
   double psnr_db = 0.0;      // mean over the last round of views at full size (each as it was before its own step)
   double depth_error = 0.0;  // likewise of TrainingStep::depth_error
+  int undone = 0;            // how often training fell and went back to its best
 };
 
 /// Fits Gaussians to posed images and to the surface they were made from: render, losses, gradients, Adam, one image a
@@ -36,9 +38,12 @@ struct TrainingReport {
 /// surface already, and depth is worth more than the last decibel. They move little, keep their planes and their
 /// thickness, rendered depth is held to the surface's, and all rates fall, so that the result does not hang on the last
 /// views seen. Frames: Gaussians and poses in one world frame [m]. Same seed, input and device: the same bits, whatever
-/// the threads, and whether the run was stopped and taken up again. Throws InputError for bad options, no Gaussians, no
-/// views, an image of another size than its camera or with values that are not finite; compute::DeviceError from the
-/// device. A run can be left after any step: gaussians() is complete then. Blocks. Not thread safe.
+/// the threads, and whether the run was stopped and taken up again. Training that falls (TrainingGuard) goes back to
+/// its best and on from there without densification; if it falls without, it ends with its best; a warning on the log
+/// says so. The guard waits for half a reset interval after an opacity reset, which lowers the PSNR on purpose. Throws
+/// InputError for bad options, no Gaussians, no views, an image of another size than its camera or with values that are
+/// not finite; compute::DeviceError from the device. A run can be left after any step: gaussians() is complete then.
+/// Blocks. Not thread safe.
 class Trainer {
  public:
   /// views and surface must outlive the trainer. surface: what depth is trained on, in the frame of the Gaussians (the
@@ -46,9 +51,12 @@ class Trainer {
   Trainer(const compute::Context& context, const TrainerOptions& options, const Gaussians& initial,
           TrainingViews& views, MapView* surface = nullptr);
 
-  /// True when all iterations are done; step() then does nothing more and returns the last step.
-  bool done() const { return iteration_ >= options_.iterations; }
+  /// True when all iterations are done, or no more are worth doing; step() then does nothing more and returns the last
+  /// step.
+  bool done() const { return ended_early_ || iteration_ >= options_.iterations; }
   TrainingStep step();
+  /// The exposures that were learnt beside the map.
+  const Exposures& exposures() const { return exposures_; }
   /// The Gaussians as they are now.
   Gaussians gaussians() const { return gaussians_.download(); }
   TrainingReport report() const;
@@ -58,10 +66,13 @@ class Trainer {
   /// All of the run's state, to go on from here, in this or another process.
   Checkpoint checkpoint() const;
   /// Takes up the run of a checkpoint of a trainer with the same options, views and start. InputError naming what
-  /// differs.
+  /// differs, or what no run can hold.
   void resume(const Checkpoint& checkpoint);
 
  private:
+  Checkpoint state() const;
+  void set_state(const Checkpoint& state);
+  void guard();
   int level_at(int iteration) const;
   int view_at(int iteration);
   bool with_depth() const { return targets_.has_depth() && options_.depth.weight > 0.0; }
@@ -85,8 +96,8 @@ class Trainer {
   Adam positions_, log_scales_, rotations_, opacity_logits_, sh_;
   compute::Kernel screen_statistics_;
   double position_length_ = 1.0;  // [m]
-  double camera_extent_ = 1.0;    // [m]
-  std::string start_;             // checksum of Gaussians and views at the start
+  DensifySizes densify_sizes_;
+  std::string start_;  // checksum of Gaussians and views at the start
 
   RenderOutput rendered_;
   OutputGradients image_gradients_;
@@ -102,6 +113,11 @@ class Trainer {
   std::vector<double> psnr_db_, depth_errors_;
   TrainingStep last_;
   double seconds_ = 0.0;
+
+  TrainingGuard guard_;
+  Checkpoint best_;  // state() at the guard's best; empty: none yet
+  int undone_ = 0;
+  bool ended_early_ = false;
 };
 
 }  // namespace odosplat

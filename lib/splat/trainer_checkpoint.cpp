@@ -2,9 +2,14 @@
 // Copyright 2026 The odosplat authors
 // What a run of training keeps in a checkpoint, and how it goes on from there.
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/splat/trainer.hpp"
@@ -15,6 +20,15 @@ namespace {
 
 // Names of the optimisers' entries, in the order of Trainer::optimisers().
 const char* const optimiser_names[] = {"positions", "log_scales", "rotations", "opacity_logits", "sh"};
+
+const std::string best_prefix = "best/";  // entries of the state that the guard goes back to
+
+bool within(std::int64_t value, std::int64_t least, std::int64_t most) { return value >= least && value <= most; }
+
+template <typename T>
+bool all_finite(const std::vector<T>& values) {
+  return std::all_of(values.begin(), values.end(), [](T v) { return std::isfinite(v); });
+}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -32,8 +46,16 @@ std::string Trainer::fingerprint() const {
 }
 
 Checkpoint Trainer::checkpoint() const {
-  Checkpoint c;
+  Checkpoint c = state();
   c.put_text("settings", fingerprint());
+  c.put("guard", guard_.state());
+  c.put("undone", std::vector<std::int64_t>{undone_, ended_early_ ? 1 : 0});
+  c.put_all(best_prefix, best_);
+  return c;
+}
+
+Checkpoint Trainer::state() const {
+  Checkpoint c;
   c.put("progress", std::vector<std::int64_t>{iteration_, last_.view, last_.level});
   c.put("last", std::vector<double>{last_.value.loss, last_.value.l1, last_.value.mse, last_.value.ssim,
                                     last_.depth_error, seconds_});
@@ -68,8 +90,32 @@ void Trainer::resume(const Checkpoint& c) {
   if (a != theirs.end() || b != ours.end())
     throw InputError("checkpoint", "was written by another run: it has \"" + (a != theirs.end() ? *a : "nothing") +
                                        "\", this run has \"" + (b != ours.end() ? *b : "nothing") + "\"");
+  const auto undone = c.get<std::int64_t>("undone");
+  require(undone.size() == 2 && within(undone[0], 0, options_.iterations) && within(undone[1], 0, 1), "undone",
+          "two counts that a run can have");
+  Checkpoint best = c.behind(best_prefix);
+  guard_.set_state(c.get<double>("guard"));
+  if (!best.empty()) set_state(best);  // a damaged one is refused before it is needed
+  set_state(c);
+  best_ = std::move(best);
+  undone_ = static_cast<int>(undone[0]);
+  ended_early_ = undone[1] == 1;
+}
+
+void Trainer::set_state(const Checkpoint& c) {
   const auto progress = c.get<std::int64_t>("progress");
   const auto last = c.get<double>("last");
+  const auto psnr = c.get<double>("psnr_db");
+  const auto depth_errors = c.get<double>("depth_errors");
+  require(progress.size() == 3 && last.size() == 6 && psnr.size() == psnr_db_.size() &&
+              depth_errors.size() == depth_errors_.size(),
+          "checkpoint", "of this version of odosplat");
+  require(within(progress[0], 0, options_.iterations) && within(progress[1], 0, views_.count() - 1) &&
+              within(progress[2], 0, options_.coarse_levels),
+          "progress", "iteration, view and level of this run");
+  require(all_finite(psnr) && all_finite(depth_errors) && last[5] >= 0.0, "last", "numbers that a run can have");
+  const auto exposures = c.get<double>("exposures");
+  require(all_finite(exposures), "exposures", "finite");
   Gaussians g;
   g.sh_degree = gaussians_.sh_degree;
   g.positions = c.get<float>("gaussians/positions");
@@ -78,37 +124,47 @@ void Trainer::resume(const Checkpoint& c) {
   g.opacity_logits = c.get<float>("gaussians/opacity_logits");
   g.sh = c.get<float>("gaussians/sh");
   g.check();
-  const auto psnr = c.get<double>("psnr_db");
-  const auto depth_errors = c.get<double>("depth_errors");
-  require(progress.size() == 3 && last.size() == 6 && psnr.size() == psnr_db_.size() &&
-              depth_errors.size() == depth_errors_.size(),
-          "checkpoint", "of this version of odosplat");
-  gaussians_.upload(context_, g);
-  exposures_.set_state(c.get<double>("exposures"));
-  const auto restore = [&](compute::Buffer<float>& buffer, const char* name, std::size_t row) {
-    const auto values = c.get<float>(name);
-    if (buffer.empty()) return;
-    require(values.size() == row * g.size(), name, "of one row a Gaussian");
-    buffer = compute::Buffer<float>(context_, values);
+  require(!g.empty(), "gaussians", "at least one");
+  for (const auto* part : {&g.positions, &g.log_scales, &g.rotations, &g.opacity_logits, &g.sh})
+    require(all_finite(*part), "gaussians", "finite");
+  const auto rows_of = [&](const std::string& name, std::size_t row, bool wanted) {
+    auto values = c.get<float>(name);
+    require(values.size() == (wanted ? row * g.size() : 0) && all_finite(values), name,
+            "finite, one row a Gaussian where the run has them");
+    return values;
   };
-  restore(largest_log_scales_, "largest_log_scales", 3);
-  restore(anchors_, "anchors", 8);
-  restore(pulls_, "pulls", 1);
-  restore(seen_, "seen", 1);
+  struct Rows {
+    compute::Buffer<float>* buffer;
+    std::vector<float> values;
+  };
+  std::vector<Rows> rows;
+  rows.push_back({&largest_log_scales_, rows_of("largest_log_scales", 3, !largest_log_scales_.empty())});
+  rows.push_back({&anchors_, rows_of("anchors", 8, !anchors_.empty())});
+  rows.push_back({&pulls_, rows_of("pulls", 1, !pulls_.empty())});
+  rows.push_back({&seen_, rows_of("seen", 1, !seen_.empty())});
   const std::vector<Adam*> adams = optimisers();
+  std::vector<Adam::State> moments;
   for (std::size_t i = 0; i < adams.size(); ++i) {
     const std::string name = std::string("adam/") + optimiser_names[i];
     const auto steps = c.get<std::int64_t>(name + "/steps");
-    require(steps.size() == 1, name, "one number of steps");
-    adams[i]->set_state({c.get<float>(name + "/first"), c.get<float>(name + "/second"), static_cast<long>(steps[0])});
+    require(steps.size() == 1 && within(steps[0], 0, std::numeric_limits<int>::max()), name, "one number of steps");
+    const bool stepped = steps[0] > 0;
+    const auto row = static_cast<std::size_t>(adams[i]->stride());
+    moments.push_back(
+        {rows_of(name + "/first", row, stepped), rows_of(name + "/second", row, stepped), static_cast<long>(steps[0])});
   }
+  exposures_.set_state(exposures);
+  gaussians_.upload(context_, g);
+  for (const Rows& part : rows)
+    if (!part.buffer->empty()) *part.buffer = compute::Buffer<float>(context_, part.values);
+  for (std::size_t i = 0; i < adams.size(); ++i) adams[i]->set_state(moments[i]);
   psnr_db_ = psnr;
   depth_errors_ = depth_errors;
   iteration_ = static_cast<int>(progress[0]);
   round_ = -1;
   last_ = {iteration_, static_cast<int>(progress[1]), static_cast<int>(progress[2]), {}, last[4]};
   last_.value = {last[0], last[1], last[2], last[3]};
-  seconds_ = last[5];
+  seconds_ = std::max(seconds_, last[5]);
 }
 
 }  // namespace odosplat

@@ -3,6 +3,7 @@
 #include "odosplat/splat/trainer_options.hpp"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "odosplat/core/error.hpp"
@@ -83,6 +84,8 @@ std::vector<std::string> TrainerOptions::describe() const {
     add("densify_growth", densify.growth);
     add("densify_pull", densify.pull);
     add("split_size", densify.split_size);
+    add("least_split_px", densify.least_split_px);
+    add("most_split_px", densify.most_split_px);
     add("largest_size", densify.largest_size);
     add("reset_interval", densify.reset_interval);
     add("reset_opacity", densify.reset_opacity);
@@ -129,6 +132,8 @@ TrainerOptions TrainerOptions::preset(const std::string& name, int views) {
   options.densify.method = DensifyMethod::split;
   options.densify.until_share = 0.5;
   options.densify.dead_opacity = 0.1;
+  options.densify.least_split_px = 0.0;
+  options.densify.most_split_px = std::numeric_limits<double>::infinity();
   options.densify.reset_interval = 3000;
   return options;
 }

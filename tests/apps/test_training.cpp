@@ -4,11 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "odosplat/core/random.hpp"
 #include "odosplat/io/cloud_file.hpp"
+#include "odosplat/io/trajectory_file.hpp"
 #include "run_program.hpp"
 #include "tiny_world.hpp"
 
@@ -81,18 +84,181 @@ TEST_F(Training, KilledRunsEndWithTheSameBits) {
   EXPECT_TRUE(read_text(map) == read_text(whole)) << "the map of the run that was killed " << kills << " times differs";
 }
 
-TEST_F(Training, CtrlCSavesAndExitsWith130) {
+TEST_F(Training, CtrlCSavesAndLeavesTheMapAsItWas) {
   const std::string map = scratch_ / "map.ply";
   const std::string checkpoint = map + ".checkpoint";
+  write_text(map, "a map of many hours");
   const RunResult stopped = run_odosplat_and_signal(words(map), SIGINT, [&] { return fs::exists(checkpoint); });
   EXPECT_EQ(stopped.status, 130) << stopped.err;
-  EXPECT_TRUE(fs::exists(map));
+  EXPECT_EQ(read_text(map), "a map of many hours");
   EXPECT_TRUE(fs::exists(checkpoint));
   const RunResult resumed = run_odosplat(words(map, {"--resume"}));
   EXPECT_EQ(resumed.status, 0) << resumed.err;
+  EXPECT_FALSE(fs::exists(checkpoint));
   const std::string whole = scratch_ / "whole.ply";
   ASSERT_EQ(run_odosplat(words(whole)).status, 0);
   EXPECT_TRUE(read_text(map) == read_text(whole));
+  EXPECT_THAT(read_text(map), HasSubstr("comment iterations_done 120\n"));
+}
+
+TEST_F(Training, PreparationEndsAtOnceOnASignal) {
+  PointCloud large;
+  Random random(3);
+  for (int i = 0; i < 600000; ++i)
+    large.points.emplace_back(random.uniform(0, 5), random.uniform(0, 4), random.uniform(0, 3));
+  const std::string cloud = scratch_ / "large.ply";
+  write_point_cloud(cloud, large);
+  const std::string map = scratch_ / "map.ply";
+  write_text(map, "a map of many hours");
+  const auto started = std::chrono::steady_clock::now();
+  auto signaled = started;
+  const RunResult stopped = run_odosplat_and_signal({"train", sequence_, "--cloud", cloud, "--out", map}, SIGINT, [&] {
+    signaled = std::chrono::steady_clock::now();
+    return signaled - started > std::chrono::milliseconds(1500);
+  });
+  EXPECT_EQ(stopped.status, 130) << stopped.err;
+  EXPECT_LT(std::chrono::steady_clock::now() - signaled, std::chrono::seconds(1));
+  EXPECT_EQ(stopped.err.find("device "), std::string::npos) << "was past preparing: " << stopped.err;
+  EXPECT_EQ(read_text(map), "a map of many hours");
+}
+
+TEST_F(Training, CheckpointsThatCannotBeWrittenCostNoTraining) {
+  const std::string map = scratch_ / "map.ply";
+  fs::create_directory(map + ".checkpoint");  // nothing can be renamed over a folder, as nothing fits on a full disk
+  write_text(map + ".checkpoint/file", "");
+  const RunResult result = run_odosplat(words(map));
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("no checkpoint after iteration 10:"));
+  EXPECT_THAT(result.err, HasSubstr("no checkpoint after iteration 110:"));  // tried again
+  EXPECT_TRUE(fs::is_regular_file(map));
+}
+
+TEST_F(Training, MapThatCannotBeWrittenIsKeptInTheCheckpoint) {
+  const std::string map = scratch_ / "map.ply";
+  const std::string checkpoint = map + ".checkpoint";
+  const RunResult failed = run_odosplat_and_signal(words(map), SIGCONT, [&] {
+    if (!fs::exists(checkpoint)) return false;
+    fs::create_directory(map);
+    return true;
+  });
+  EXPECT_EQ(failed.status, 2) << failed.err;
+  EXPECT_THAT(failed.err, HasSubstr("kept in " + checkpoint));
+  ASSERT_TRUE(fs::exists(checkpoint));
+  fs::remove(map);
+  EXPECT_EQ(run_odosplat(words(map, {"--resume"})).status, 0);
+  EXPECT_TRUE(fs::is_regular_file(map));
+}
+
+TEST_F(Training, AbsurdFlagsAreRefusedInOneLine) {
+  const std::string map = scratch_ / "map.ply";
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{"--iterations", "-5"},
+                                                                                    {"--iterations", "many"},
+                                                                                    {"--sh-degree", "-2"},
+                                                                                    {"--sh-degree", "4"},
+                                                                                    {"--depth-weight", "nan"},
+                                                                                    {"--depth-weight", "inf"},
+                                                                                    {"--depth-weight", "-1"},
+                                                                                    {"--seed", "-1"},
+                                                                                    {"--budget", "-7"},
+                                                                                    {"--voxel", "nan"},
+                                                                                    {"--voxel", "inf"},
+                                                                                    {"--checkpoint-every", "-1"}}) {
+    std::vector<std::string> all{"train", sequence_, "--cloud", cloud_, "--out", map};
+    all.insert(all.end(), more.begin(), more.end());
+    const RunResult result = run_odosplat(all);
+    EXPECT_EQ(result.status, 2) << testing::PrintToString(more) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(fs::exists(map));
+  }
+}
+
+TEST_F(Training, CloudThatNoImageSeesIsRefused) {
+  PointCloud cloud = read_point_cloud(cloud_);
+  for (Eigen::Vector3f& p : cloud.points) p.z() -= 500.0F;
+  const std::string away = scratch_ / "away.ply";
+  write_point_cloud(away, cloud);
+  const std::string map = scratch_ / "map.ply";
+  const RunResult result = run_odosplat({"train", sequence_, "--cloud", away, "--out", map});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("no image sees any of its points"));
+  EXPECT_FALSE(fs::exists(map));
+  EXPECT_FALSE(fs::exists(map + ".checkpoint"));
+}
+
+TEST_F(Training, SaysWhatTheMapIsWorth) {
+  const std::string map = scratch_ / "map.ply";
+  const std::string report = scratch_ / "report.json";
+  const RunResult good = run_odosplat(words(map, {"--iterations", "400", "--report", report}));
+  ASSERT_EQ(good.status, 0) << good.err;
+  EXPECT_THAT(good.out, HasSubstr("the map is good: "));
+  const auto json = nlohmann::json::parse(read_text(report));
+  EXPECT_EQ(json["quality"]["good"], true);
+  ASSERT_EQ(json["images"].size(), 8U);
+  for (const auto& image : json["images"]) {
+    EXPECT_GT(image["psnr_db"], 20.0);
+    EXPECT_LT(image["depth_error_m"], 0.02);
+  }
+  EXPECT_EQ(json["images"][1]["frame"], 3);
+
+  const RunResult info = run_odosplat({"map", "info", map, "--json", scratch_ / "info.json"});
+  ASSERT_EQ(info.status, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("good: "));
+  const auto told = nlohmann::json::parse(read_text(scratch_ / "info.json"));
+  EXPECT_EQ(told["gaussians"], json["gaussians"]);
+  EXPECT_EQ(told["bytes"], fs::file_size(map));
+  EXPECT_EQ(told["blend_order"], "distance");
+  EXPECT_EQ(told["quality"]["verdict"], json["quality"]["verdict"]);
+  EXPECT_GT(told["places"], 0);
+  EXPECT_FALSE(told["sigma"].is_null());
+
+  // A map that says nothing of itself.
+  const std::string foreign = scratch_ / "map.splat";
+  ASSERT_EQ(run_odosplat({"convert", map, foreign}).status, 0);
+  const RunResult unknown = run_odosplat({"map", "info", foreign, "--json", scratch_ / "info.json"});
+  ASSERT_EQ(unknown.status, 0) << unknown.err;
+  EXPECT_THAT(unknown.out, HasSubstr("quality       unknown"));
+  EXPECT_TRUE(nlohmann::json::parse(read_text(scratch_ / "info.json"))["quality"].is_null());
+  EXPECT_EQ(run_odosplat({"map", "info", cloud_}).status, 2);
+}
+
+TEST_F(Training, CloudThatIsOffMakesADoubtfulMapThatTrackWarnsOf) {
+  PointCloud cloud = read_point_cloud(cloud_);
+  for (Eigen::Vector3f& p : cloud.points) p += Eigen::Vector3f(0.1F, 0.2F, 0.0F);
+  const std::string off = scratch_ / "off.ply";
+  write_point_cloud(off, cloud);
+  const std::string map = scratch_ / "map.ply";
+  const RunResult trained =
+      run_odosplat({"train", sequence_, "--every", "3", "--cloud", off, "--out", map, "--iterations", "120"});
+  ASSERT_EQ(trained.status, 0) << trained.err;
+  EXPECT_THAT(trained.out, HasSubstr("the map is doubtful: "));
+  EXPECT_THAT(trained.err, HasSubstr("likely cause: the cloud lies 0.2"));
+  const RunResult tracked =
+      run_odosplat({"track", sequence_, "--map", map, "--frames", "0:3", "--out", scratch_ / "run"});
+  EXPECT_THAT(tracked.err, HasSubstr("its header says: doubtful: "));
+}
+
+TEST_F(Training, InvertedPosesAreNamed) {
+  const std::string turned = scratch_ / "turned";
+  fs::copy(sequence_, turned, fs::copy_options::recursive);
+  Trajectory poses = read_trajectory(turned + "/groundtruth.txt");
+  for (StampedPose& pose : poses) pose.T_world_camera = pose.T_world_camera.inverse();
+  write_trajectory(turned + "/groundtruth.txt", poses);
+  const RunResult result = run_odosplat(
+      {"train", turned, "--every", "3", "--cloud", cloud_, "--out", scratch_ / "map.ply", "--iterations", "40"});
+  EXPECT_THAT(result.err, HasSubstr("the poses are inverted"));
+  EXPECT_TRUE(result.status == 0 || result.status == 2) << result.err;
+}
+
+TEST_F(Training, PointsThatCoincideDoNotHoldItUp) {
+  PointCloud cloud;
+  cloud.points.assign(60000, read_point_cloud(cloud_).points.front());
+  const std::string pile = scratch_ / "pile.ply";
+  write_point_cloud(pile, cloud);
+  const auto started = std::chrono::steady_clock::now();
+  const RunResult result = run_odosplat(
+      {"train", sequence_, "--every", "12", "--cloud", pile, "--out", scratch_ / "map.ply", "--iterations", "1"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::seconds(30));
 }
 
 TEST_F(Training, ForeignAndDamagedCheckpointsAreRefused) {

@@ -17,7 +17,7 @@ TEST(Program, HelpAndVersionSucceed) {
   EXPECT_EQ(run_odosplat({"--help"}).status, 0);
   EXPECT_THAT(run_odosplat({"--version"}).out, HasSubstr("0.1.0"));
   for (const char* command : {"devices", "check", "cloud", "align", "convert", "train", "render", "track", "relocalise",
-                              "eval", "eval-depth", "view", "demo"}) {
+                              "eval", "eval-depth", "view", "demo", "map"}) {
     const RunResult result = run_odosplat({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("--help")) << command;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -119,6 +120,44 @@ TEST_P(Resume, EndsWithTheBitsOfAnUninterruptedRun) {
 INSTANTIATE_TEST_SUITE_P(Methods, Resume,
                          testing::Values(DensifyMethod::none, DensifyMethod::relocate, DensifyMethod::split),
                          [](const auto& method) { return name_of(method.param); });
+
+// The checksum is right: nothing but the numbers themselves tells.
+TEST(Resume, AbsurdNumbersAreRefused) {
+  const auto context = compute::Context::open();
+  const Gaussians initial = gaussians_from_cloud(CornerScene().cloud(0.2), {});
+  CornerViews views(2);
+  TrainerOptions options;
+  options.iterations = 10;
+  Trainer trainer(context, options, initial, views);
+  trainer.step();
+  const Checkpoint good = trainer.checkpoint();
+  const auto refused = [&](const std::string& name, const auto& values) {
+    Checkpoint bad = good;
+    bad.put(name, values);
+    EXPECT_THROW(trainer.resume(bad), InputError) << name;
+  };
+  using Whole = std::vector<std::int64_t>;
+  using Real = std::vector<float>;
+  refused("progress", Whole{-1, 0, 0});
+  refused("progress", Whole{1LL << 40, 0, 0});
+  refused("progress", Whole{1, 2, 0});
+  refused("progress", Whole{1, 0, 9});
+  refused("progress", Whole{});
+  refused("undone", Whole{-3, 0});
+  refused("adam/sh/steps", Whole{-1});
+  refused("adam/sh/first", Real(3, 0.0F));
+  refused("adam/positions/second", Real{});
+  refused("gaussians/positions", Real(3 * initial.size(), std::numeric_limits<float>::quiet_NaN()));
+  refused("gaussians/opacity_logits", Real{});
+  refused("gaussians/sh", Real(1, 0.0F));
+  refused("largest_log_scales", Real{});
+  refused("anchors", Real(8 * initial.size() + 8, 0.0F));
+  refused("psnr_db", std::vector<double>{1.0});
+  refused("last", std::vector<double>(6, std::numeric_limits<double>::quiet_NaN()));
+  refused("guard", std::vector<double>(7, -1.0));
+  trainer.resume(good);
+  EXPECT_EQ(trainer.iteration(), 1);
+}
 
 TEST(Resume, AnotherRunsCheckpointIsRefused) {
   const auto context = compute::Context::open();

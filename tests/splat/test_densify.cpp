@@ -120,7 +120,8 @@ TEST(CloneAndSplit, SmallAreClonedLargeAreSplitDeadAreRemoved) {
   DensifyOptions options;
   options.method = DensifyMethod::split;
   Random random(4);
-  clone_and_split(rows, options, {1.0F, 1.0F, 1e-6F, 1e-6F, 1e-6F}, {10.0F, 10.0F, 10.0F, 10.0F, 10.0F}, 10.0, random);
+  clone_and_split(rows, options, {0.1, 5.0}, {1.0F, 1.0F, 1e-6F, 1e-6F, 1e-6F}, {10.0F, 10.0F, 10.0F, 10.0F, 10.0F},
+                  random);
   expect_consistent(rows);
   ASSERT_EQ(rows.size(), 5U);  // 0, 1 and 2 stay, 0 is cloned, 1 is halved
   EXPECT_EQ(rows.gaussians.positions[0], rows.gaussians.positions[3 * 3]);
@@ -139,9 +140,20 @@ TEST(CloneAndSplit, BudgetGoesToTheMostPulled) {
   options.method = DensifyMethod::split;
   options.budget = 7;
   Random random(5);
-  clone_and_split(rows, options, {1.0F, 2.0F, 9.0F, 1.0F, 1.0F, 1.0F}, std::vector<float>(6, 1.0F), 10.0, random);
+  clone_and_split(rows, options, {0.1, 5.0}, {1.0F, 2.0F, 9.0F, 1.0F, 1.0F, 1.0F}, std::vector<float>(6, 1.0F), random);
   ASSERT_EQ(rows.size(), 7U);
   EXPECT_EQ(rows.gaussians.positions[3 * 6], 2.0F);
+}
+
+TEST(DensifySizes, HoldFromATripodToABuilding) {
+  const DensifyOptions options;
+  constexpr double pixel = 0.008;                                             // [m]
+  EXPECT_NEAR(densify_sizes(options, 1.2, pixel, true).split, 0.012, 1e-12);  // a room: by the extent
+  EXPECT_NEAR(densify_sizes(options, 0.01, pixel, true).split, 0.5 * pixel, 1e-12);
+  EXPECT_NEAR(densify_sizes(options, 40.0, pixel, true).split, 4.0 * pixel, 1e-12);
+  EXPECT_NEAR(densify_sizes(options, 0.01, 0.0, true).split, 1e-4, 1e-12);  // nothing seen: nothing known
+  EXPECT_TRUE(std::isinf(densify_sizes(options, 0.01, pixel, true).largest));
+  EXPECT_NEAR(densify_sizes(options, 0.01, pixel, false).largest, 0.005, 1e-12);
 }
 
 TEST(DensifyOptions, RefusesNonsense) {
@@ -149,6 +161,9 @@ TEST(DensifyOptions, RefusesNonsense) {
   for (const char* name : {"none", "relocate", "split"}) EXPECT_EQ(name_of(densify_method(name)), name);
   DensifyOptions options;
   options.interval = 0;
+  EXPECT_THROW(options.check(), InputError);
+  options = {};
+  options.least_split_px = 5.0;
   EXPECT_THROW(options.check(), InputError);
 }
 

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "map_quality_json.hpp"
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "odosplat/splat/map_file.hpp"
+#include "support.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+struct MapInfoFlags {
+  std::string map;
+  std::string json;
+};
+
+/// What a map's file says of itself.
+struct MapInfo {
+  std::size_t gaussians = 0;
+  int sh_degree = 0;
+  std::uintmax_t bytes = 0;
+  Eigen::Vector3f least = Eigen::Vector3f::Zero();  // [m] of the centres
+  Eigen::Vector3f most = Eigen::Vector3f::Zero();
+  BlendOrder order = BlendOrder::depth;
+  std::optional<SigmaModel> sigma;  // none: not calibrated
+  std::size_t places = 0;
+  std::vector<std::string> settings;  // other lines of the header
+  std::optional<MapQuality> quality;  // none: unknown
+};
+
+MapInfo read_info(const std::string& path) {
+  const Gaussians gaussians = read_map(path);
+  MapInfo info;
+  info.gaussians = gaussians.size();
+  info.sh_degree = gaussians.sh_degree;
+  info.bytes = std::filesystem::file_size(path);
+  info.least = info.most = Eigen::Vector3f(gaussians.positions.data());
+  for (std::size_t i = 0; i < gaussians.size(); ++i) {
+    const Eigen::Vector3f p(&gaussians.positions[3 * i]);
+    info.least = info.least.cwiseMin(p);
+    info.most = info.most.cwiseMax(p);
+  }
+  info.order = read_blend_order(path);
+  info.places = read_map_places(path).size();
+  info.quality = read_map_quality(path);
+  for (const std::string& note : read_map_notes(path)) {
+    if (note.starts_with("sigma_")) {
+      info.sigma = read_sigma_model(path);
+    } else if (!note.starts_with("training_view ") && !note.starts_with("quality_") &&
+               !note.starts_with("blend_order ")) {
+      info.settings.push_back(note);
+    }
+  }
+  return info;
+}
+
+/// Without what would command a terminal: comments are other people's.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return text;
+}
+
+void print_quality(const MapQuality& q) {
+  std::printf("quality       %s\n", printable(q.verdict).c_str());
+  std::printf("  images      %d, median PSNR %.2f dB, %d disagree with the rest\n", q.images, q.psnr_db, q.odd_images);
+  if (q.depth_error_m >= 0.0) {
+    std::printf("  depth       %.1f mm off the cloud's (%.2f %% of it), median of the images' medians\n",
+                1000.0 * q.depth_error_m, 100.0 * q.depth_error_share);
+  } else {
+    std::printf("  depth       not compared with a cloud\n");
+  }
+  std::printf("  cloud       %.1f %% of it in no image, the rest in %.0f images (median)\n",
+              100.0 * q.coverage.unseen_share, q.coverage.images_a_point);
+  std::printf("  directions ");
+  for (std::size_t k = 0; k < direction_names.size(); ++k)
+    std::printf(" %s %.0f %%", direction_names[k], 100.0 * q.coverage.directions[k]);
+  std::printf(" looked in by an image\n");
+}
+
+void print(const std::string& path, const MapInfo& info) {
+  std::printf("%s\n", path.c_str());
+  std::printf("Gaussians     %zu, colours of SH degree %d\n", info.gaussians, info.sh_degree);
+  std::printf("bytes         %ju\n", info.bytes);
+  const Eigen::Vector3f size = info.most - info.least;
+  std::printf("bounds [m]    %.2f %.2f %.2f to %.2f %.2f %.2f (%.2f x %.2f x %.2f)\n", info.least.x(), info.least.y(),
+              info.least.z(), info.most.x(), info.most.y(), info.most.z(), size.x(), size.y(), size.z());
+  std::printf("blend order   %s\n", info.order == BlendOrder::distance ? "distance" : "depth");
+  if (info.sigma) {
+    std::printf("sigma         spread %.3g, slope %.3g px, share of depth %.3g, open %.3g\n", info.sigma->spread,
+                info.sigma->slope_px, info.sigma->depth_share, info.sigma->open_share);
+  } else {
+    std::printf("sigma         not calibrated\n");
+  }
+  std::printf("places        %zu\n", info.places);
+  if (info.quality) {
+    print_quality(*info.quality);
+  } else {
+    std::printf("quality       unknown: the file does not say (only train measures it)\n");
+  }
+  for (const std::string& line : info.settings) std::printf("  %s\n", printable(line).c_str());
+}
+
+nlohmann::ordered_json json_of(const MapInfo& info) {
+  const auto row = [](const Eigen::Vector3f& v) { return nlohmann::ordered_json{v.x(), v.y(), v.z()}; };
+  nlohmann::ordered_json json{{"gaussians", info.gaussians},
+                              {"sh_degree", info.sh_degree},
+                              {"bytes", info.bytes},
+                              {"bounds_m", {{"least", row(info.least)}, {"most", row(info.most)}}},
+                              {"blend_order", info.order == BlendOrder::distance ? "distance" : "depth"},
+                              {"sigma", nullptr},
+                              {"places", info.places},
+                              {"quality", nullptr},
+                              {"settings", info.settings}};
+  if (info.sigma)
+    json["sigma"] = {{"spread", info.sigma->spread},
+                     {"slope_px", info.sigma->slope_px},
+                     {"depth_share", info.sigma->depth_share},
+                     {"open_share", info.sigma->open_share}};
+  if (info.quality) json["quality"] = apps::json_of(*info.quality);
+  return json;
+}
+
+void run(const MapInfoFlags& flags) {
+  if (!flags.json.empty()) ensure_output_file(flags.json);
+  const MapInfo info = read_info(flags.map);
+  print(flags.map, info);
+  // Comments of other programs' files may be in any encoding.
+  if (!flags.json.empty())
+    write_file_atomically(flags.json,
+                          json_of(info).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace
+
+void add_map(CLI::App& app, Common& common) {
+  CLI::App* map = app.add_subcommand("map", "what a map of Gaussians is");
+  map->require_subcommand(1);
+  CLI::App* info =
+      add_command(*map, common, "info", "what a map holds, how it was trained and what it is worth, as its file says");
+  auto flags = std::make_shared<MapInfoFlags>();
+  info->add_option("MAP", flags->map, "map of Gaussians (PLY, .splat)")->required();
+  info->add_option("--json", flags->json, "the same to write (JSON)");
+  info->final_callback([flags] { run(*flags); });
+}
+
+}  // namespace odosplat::apps

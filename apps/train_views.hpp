@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "odosplat/io/sequence.hpp"
+#include "odosplat/splat/training_targets.hpp"
+#include "sequence_flags.hpp"
+
+namespace odosplat::apps {
+
+/// Every Nth posed frame of some sequences, read from disk when asked for.
+class SequenceViews : public TrainingViews {
+ public:
+  /// InputError for a sequence that cannot be read or has no such frame.
+  SequenceViews(const std::vector<std::string>& paths, const SequenceOptions& options, int every,
+                const FrameRange& range);
+
+  int count() const override { return static_cast<int>(frames_.size()); }
+  Camera camera(int i) const override { return sequence(i).camera(); }
+  SE3 T_world_camera(int i) const override { return *sequence(i).T_world_camera(at(i).frame); }
+  ColorImage color(int i) override { return sequence(i).color(at(i).frame); }
+  DepthImage depth(int i) override {
+    return sequence(i).has_depth(at(i).frame) ? sequence(i).depth(at(i).frame) : DepthImage();
+  }
+
+  /// Where view i comes from.
+  std::string sequence_name(int i) const { return sequence(i).name(); }
+  std::size_t frame(int i) const { return at(i).frame; }
+
+ private:
+  struct Place {
+    std::size_t sequence;
+    std::size_t frame;
+  };
+  const Place& at(int i) const { return frames_[static_cast<std::size_t>(i)]; }
+  const Sequence& sequence(int i) const { return sequences_[at(i).sequence]; }
+
+  std::vector<Sequence> sequences_;
+  std::vector<Place> frames_;
+};
+
+}  // namespace odosplat::apps

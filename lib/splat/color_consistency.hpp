@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "odosplat/core/image.hpp"
+#include "odosplat/splat/seen_points.hpp"
+#include "odosplat/splat/training_targets.hpp"
+
+namespace odosplat {
+
+/// What may be wrong with poses, camera and cloud; the default: nothing.
+struct GeometryHypothesis {
+  bool inverted = false;                             // the poses are T_camera_world
+  double focal = 1.0;                                // times the focal length that was given
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // [m, world] that the cloud lies off the poses' world
+
+  /// "the poses are inverted", ...: a likely cause, named.
+  std::string words() const;
+};
+
+struct ColorConsistencyOptions {
+  std::size_t points = 4000;  // of the cloud, evenly spread, >= 1
+  int views = 24;             // evenly spread, >= 2
+  int width = 160;            // [px] that images are reduced to, >= 16
+
+  void check() const;
+};
+
+/// Whether cloud, poses and camera belong together, by the images alone, before any training: points on a surface look
+/// alike in all images that see them. Compared are grey values less their surroundings' mean (exposure cancels).
+/// Keeps the reduced images. Frames: cloud and poses in one world frame [m]. Uses all threads; deterministic.
+class ColorConsistency {
+ public:
+  struct Value {
+    double unexplained = 1.0;  // variance within the points over the variance of all values: 0 as it should be, about 1
+                               // where images and points have nothing to do with each other
+    std::size_t points = 0;    // seen by two images or more
+  };
+
+  ColorConsistency(const PointCloud& cloud, TrainingViews& views, const ColorConsistencyOptions& options = {});
+  Value of(const GeometryHypothesis& hypothesis) const;
+
+ private:
+  struct View {
+    GrayImage image;
+    Camera camera;
+    SE3 T_world_camera;
+  };
+  SeenPoints points_;
+  std::vector<View> views_;
+};
+
+/// A hypothesis under which the images agree clearly better than as the files say.
+struct GeometryDoubt {
+  GeometryHypothesis hypothesis;
+  double as_given = 1.0;  // Value::unexplained
+  double instead = 1.0;
+};
+
+/// The best among inverted poses, focal lengths from 0.75 to 1.35 of the given one, and offsets up to 0.6 m, if it is
+/// clearly better; none otherwise.
+std::optional<GeometryDoubt> geometry_doubt(const ColorConsistency& consistency);
+
+}  // namespace odosplat

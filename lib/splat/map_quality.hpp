@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "odosplat/map/map_view.hpp"
+#include "odosplat/splat/color_consistency.hpp"
+#include "odosplat/splat/exposures.hpp"
+#include "odosplat/splat/gaussians.hpp"
+#include "odosplat/splat/rasterizer.hpp"
+#include "odosplat/splat/training_targets.hpp"
+
+namespace odosplat {
+
+/// A trained map at one of its training views.
+struct ViewQuality {
+  double psnr_db = 0.0;
+  double depth_error_m = -1.0;      // median of |rendered - the cloud's| [m], negative: no pixel has both
+  double depth_error_share = -1.0;  // the same over the depth
+  double covered = 0.0;             // share of the pixels with depth, 0..1
+  bool odd = false;                 // disagrees with the rest (mark_odd)
+};
+
+/// What the images show of a cloud.
+struct CloudCoverage {
+  double unseen_share = 0.0;    // of the points: in no image, or hidden in all
+  double images_a_point = 0.0;  // median over the points that are seen
+  // Share of the directions around +x, -x, +y, -y, +z, -z of the world (a sixth of the sphere each) that an image
+  // looks in, 0..1.
+  std::array<double, 6> directions{};
+};
+
+/// What a map is worth, in the words and figures of its header.
+struct MapQuality {
+  bool good = false;
+  std::string verdict;              // one line: "good: ..." or "doubtful: ...; likely cause: ..."
+  double psnr_db = 0.0;             // median over the training images
+  double depth_error_m = -1.0;      // likewise, negative: unknown
+  double depth_error_share = -1.0;  // likewise
+  int images = 0;
+  int odd_images = 0;
+  double consistency = 1.0;  // ColorConsistency::Value::unexplained of the geometry as given
+  CloudCoverage coverage;
+
+  /// Lines "quality_NAME value" for the header of a map; and back, none where there are none. from_lines throws
+  /// InputError for values that are no numbers. Other lines are passed over.
+  std::vector<std::string> to_lines() const;
+  static std::optional<MapQuality> from_lines(const std::vector<std::string>& lines);
+};
+
+/// Names of CloudCoverage::directions, in their order.
+extern const std::array<const char*, 6> direction_names;
+
+/// At most 200 of the views and 100 000 of the points, evenly spread, stand for all. Uses all threads; deterministic.
+CloudCoverage cloud_coverage(const PointCloud& cloud, const TrainingViews& views);
+
+/// Whether a point of the cloud is in any image, hidden or not; inverted: if the poses were T_camera_world.
+bool any_in_view(const PointCloud& cloud, const TrainingViews& views, bool inverted = false);
+
+/// Every training view against its image, and against the depth of `surface` (null: unknown), in the order of the
+/// views. exposures: those learnt beside the map.
+std::vector<ViewQuality> view_qualities(const compute::Context& context, const Gaussians& gaussians,
+                                        TrainingViews& views, MapView* surface, const Exposures& exposures,
+                                        const RasterizerOptions& options);
+
+/// Marks the views whose PSNR is lower, or whose depth error is larger, than the median by more than five robust
+/// standard deviations (1.4826 median absolute deviations) and at least by 4 dB or a factor of 3.
+void mark_odd(std::vector<ViewQuality>& views);
+
+/// The verdict from all of that, and what geometry_doubt found.
+MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage& coverage, double consistency,
+                     const std::optional<GeometryDoubt>& doubt);
+
+}  // namespace odosplat

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/splat/map_quality.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/map/interpolation_view.hpp"
+#include "odosplat/splat/initialize.hpp"
+#include "splat/corner_scene.hpp"
+
+namespace odosplat {
+namespace {
+
+using test::CornerScene;
+using test::CornerViews;
+using testing::HasSubstr;
+
+/// The corner's images with poses or a camera that are not theirs.
+class WrongViews : public CornerViews {
+ public:
+  WrongViews() : CornerViews(8) {}
+  bool inverted = false;
+  double focal = 1.0;
+  Camera camera(int i) const override {
+    Camera camera = CornerViews::camera(i);
+    camera.fx *= focal;
+    camera.fy *= focal;
+    return camera;
+  }
+  SE3 T_world_camera(int i) const override {
+    const SE3 T = CornerViews::T_world_camera(i);
+    return inverted ? T.inverse() : T;
+  }
+};
+
+std::vector<ViewQuality> even_views(std::size_t n) {
+  std::vector<ViewQuality> views(n);
+  for (std::size_t i = 0; i < n; ++i)
+    views[i] = {30.0 + 0.3 * static_cast<double>(i % 3), 0.004, 0.002 + 0.0001 * static_cast<double>(i % 4), 1.0,
+                false};
+  return views;
+}
+
+TEST(MarkOdd, FindsWhatDisagreesAndNothingElse) {
+  auto views = even_views(20);
+  mark_odd(views);
+  for (const ViewQuality& view : views) EXPECT_FALSE(view.odd);
+  views[3].psnr_db = 21.0;
+  views[7].depth_error_share = 0.05;
+  mark_odd(views);
+  for (std::size_t i = 0; i < views.size(); ++i) EXPECT_EQ(views[i].odd, i == 3 || i == 7) << i;
+}
+
+TEST(JudgeMap, NamesFaultAndLikelyCause) {
+  EXPECT_TRUE(judge_map(even_views(10), {}, 0.1, std::nullopt).good);
+  auto low = even_views(10);
+  for (ViewQuality& view : low) view.psnr_db = 12.0;
+  const MapQuality unlike = judge_map(low, {}, 0.1, std::nullopt);
+  EXPECT_FALSE(unlike.good);
+  EXPECT_THAT(unlike.verdict, testing::StartsWith("doubtful: only 12.0 dB"));
+  const MapQuality inverted =
+      judge_map(low, {}, 0.9, GeometryDoubt{.hypothesis = {.inverted = true}, .as_given = 0.9, .instead = 0.1});
+  EXPECT_THAT(inverted.verdict, HasSubstr("likely cause: the poses are inverted"));
+  auto off = even_views(10);
+  for (ViewQuality& view : off) view.depth_error_share = 0.1;
+  EXPECT_THAT(judge_map(off, {}, 0.1, std::nullopt).verdict, HasSubstr("10.0 % off the cloud's"));
+  auto moved = even_views(10);
+  for (std::size_t i = 0; i < 4; ++i) moved[i].odd = true;
+  EXPECT_THAT(judge_map(moved, {}, 0.1, std::nullopt).verdict, HasSubstr("4 of 10 images disagree"));
+  EXPECT_FALSE(judge_map({}, {}, 0.1, std::nullopt).good);
+}
+
+TEST(MapQuality, LinesGiveBackWhatTheyWereMadeOf) {
+  CloudCoverage coverage{0.25, 7.0, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}};
+  const MapQuality written = judge_map(even_views(10), coverage, 0.125, std::nullopt);
+  auto lines = written.to_lines();
+  lines.insert(lines.begin(), "iterations 400");
+  const auto read = MapQuality::from_lines(lines);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->to_lines(), written.to_lines());
+  EXPECT_EQ(read->good, written.good);
+  EXPECT_FALSE(MapQuality::from_lines({"iterations 400", "sigma_spread 1"}));
+  EXPECT_THROW(MapQuality::from_lines({"quality_verdict good", "quality_psnr_db fine"}), InputError);
+}
+
+TEST(CloudCoverage, CountsWhatNoImageSees) {
+  const CornerViews views(4);
+  PointCloud cloud = CornerScene().cloud(0.1);
+  const CloudCoverage before = cloud_coverage(cloud, views);
+  const std::size_t n = cloud.size();
+  // As many behind the cameras.
+  for (std::size_t i = 0; i < n; ++i) {
+    cloud.points.emplace_back(cloud.points[i].x(), cloud.points[i].y(), -5.0F - cloud.points[i].z());
+    cloud.colors.push_back(cloud.colors[i]);
+    cloud.normals.push_back(cloud.normals[i]);
+  }
+  const CloudCoverage after = cloud_coverage(cloud, views);
+  EXPECT_NEAR(after.unseen_share, 0.5 + 0.5 * before.unseen_share, 0.01);
+  EXPECT_GE(after.images_a_point, 1.0);
+  EXPECT_GT(after.directions[4], 0.2);  // +z
+  EXPECT_EQ(after.directions[5], 0.0);  // -z
+  EXPECT_TRUE(any_in_view(cloud, views));
+  for (Eigen::Vector3f& p : cloud.points) p.z() = -std::abs(p.z()) - 1.0F;
+  EXPECT_FALSE(any_in_view(cloud, views));
+}
+
+TEST(ViewQualities, AreThoseOfTheMap) {
+  CornerViews views(3);
+  const auto context = compute::Context::open();
+  PointCloud cloud = CornerScene().cloud(0.04);
+  InterpolationView surface(cloud);
+  const Gaussians gaussians = gaussians_from_cloud(cloud, {});
+  const Exposures plain(context, {}, 3);
+  const auto right = view_qualities(context, gaussians, views, &surface, plain, {.order = BlendOrder::distance});
+  ASSERT_EQ(right.size(), 3U);
+  for (const ViewQuality& view : right) {
+    EXPECT_GT(view.psnr_db, 20.0);
+    EXPECT_GT(view.covered, 0.9);
+    EXPECT_GE(view.depth_error_m, 0.0);
+    EXPECT_LT(view.depth_error_m, 0.01);
+    EXPECT_LT(view.depth_error_share, 0.01);
+  }
+  for (Eigen::Vector3f& p : cloud.points) p.z() += 0.2F;
+  InterpolationView off(cloud);
+  for (const ViewQuality& view : view_qualities(context, gaussians, views, &off, plain, {})) {
+    EXPECT_GT(view.depth_error_m, 0.1);
+  }
+  EXPECT_LT(view_qualities(context, gaussians, views, nullptr, plain, {})[0].depth_error_m, 0.0);
+}
+
+TEST(ColorConsistency, NamesWhatIsWrong) {
+  const PointCloud cloud = CornerScene().cloud(0.03);
+  {
+    WrongViews views;
+    const ColorConsistency right(cloud, views);
+    EXPECT_LT(right.of({}).unexplained, 0.2);
+    EXPECT_FALSE(geometry_doubt(right)) << geometry_doubt(right)->hypothesis.words();
+  }
+  {
+    WrongViews views;
+    views.inverted = true;
+    const auto doubt = geometry_doubt(ColorConsistency(cloud, views));
+    ASSERT_TRUE(doubt);
+    EXPECT_TRUE(doubt->hypothesis.inverted) << doubt->hypothesis.words();
+  }
+  {
+    WrongViews views;
+    views.focal = 1.0 / 0.9;
+    const auto doubt = geometry_doubt(ColorConsistency(cloud, views));
+    ASSERT_TRUE(doubt);
+    EXPECT_NEAR(doubt->hypothesis.focal, 0.9, 0.051) << doubt->hypothesis.words();
+  }
+  {
+    WrongViews views;
+    PointCloud off = cloud;
+    const Eigen::Vector3f shift(0.0F, 0.05F, 0.25F);
+    for (Eigen::Vector3f& p : off.points) p += shift;
+    const auto doubt = geometry_doubt(ColorConsistency(off, views));
+    ASSERT_TRUE(doubt);
+    EXPECT_LT((doubt->hypothesis.offset - shift.cast<double>()).norm(), 0.08) << doubt->hypothesis.words();
+  }
+}
+
+}  // namespace
+}  // namespace odosplat
