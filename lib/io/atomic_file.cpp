@@ -26,6 +26,9 @@ std::string name_beside(const std::string& path) {
   return path + ".part" + std::to_string(getpid()) + "_" + std::to_string(count++);
 }
 
+// A FIFO would hang, a device would never end.
+constexpr const char* not_regular = "is not a regular file";
+
 std::string cannot_write(const std::string& reason) { return "cannot be written: " + reason; }
 
 void make_folder(const std::string& folder, const std::string& named_in_error) {
@@ -106,14 +109,22 @@ void ensure_output_file(const std::string& path) {
   prove_writable(parent.empty() ? "." : parent, path);
 }
 
-std::string read_file(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+std::string read_file(const std::string& path, std::uint64_t max_bytes) {
+  // O_NONBLOCK: opening a FIFO would wait for its writer. Regular files do not know the difference.
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) throw InputError(path, errno == ENOENT ? "is missing" : std::strerror(errno));
   struct stat status {};
-  if (::fstat(file, &status) != 0 || S_ISDIR(status.st_mode)) {
+  const bool known = ::fstat(file, &status) == 0;
+  if (!known || !S_ISREG(status.st_mode)) {
     ::close(file);
-    throw InputError(path, "is not a file");
+    throw InputError(path, not_regular);
   }
+  const auto refuse_above = [&](std::uint64_t bytes) {
+    if (bytes <= max_bytes) return;
+    ::close(file);
+    throw InputError(path, "is larger than the " + std::to_string(max_bytes >> 20U) + " MB that such a file may have");
+  };
+  refuse_above(static_cast<std::uint64_t>(status.st_size));
   std::string content;
   content.reserve(static_cast<std::size_t>(status.st_size));
   char block[1 << 16];
@@ -126,10 +137,20 @@ std::string read_file(const std::string& path) {
       ::close(file);
       throw InputError(path, std::string("cannot be read: ") + std::strerror(error));
     }
+    // Files of /proc have a size of 0, and others grow.
+    refuse_above(content.size() + static_cast<std::uint64_t>(n));
     content.append(block, static_cast<std::size_t>(n));
   }
   ::close(file);
   return content;
+}
+
+void require_regular_file(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) {
+    throw InputError(path, errno == ENOENT ? "is missing" : std::strerror(errno));
+  }
+  if (!S_ISREG(status.st_mode)) throw InputError(path, not_regular);
 }
 
 }  // namespace odosplat

@@ -45,7 +45,7 @@ SequenceIndex index_nerfstudio(const std::string& path, const SequenceOptions& o
     files.poses[number] = frame.T_world_camera;
   }
   cv::Size size;
-  if (!transforms.camera.has_size()) size = read_image_size(files.color[0]);
+  if (!transforms.camera.has_size()) size = read_image_size(files.color[0], {options.max_image_pixels, {}});
   CameraFile camera = transforms.camera.camera(file, size);
   camera.depth_scale = transforms.depth_scale;
   choose_camera(options, {folder}, camera, file, camera.depth_scale, index);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "odosplat/core/point_cloud.hpp"
 #include "odosplat/core/trajectory.hpp"
 #include "odosplat/io/camera_file.hpp"
+#include "odosplat/io/image_file.hpp"
 
 namespace odosplat {
 
@@ -20,8 +22,9 @@ struct SequenceOptions {
   std::string layout;       // "" = detect, or: tum icl redwood sevenscenes replica colmap nerfstudio images video
   std::string camera_file;  // camera.yaml that counts instead of the sequence's own and of the layout's calibration
   bool as_stored = false;   // true: poses as the files have them even where fy is negative (for checking conventions)
+  std::int64_t max_image_pixels = ImageLimit::default_max_pixels;  // images of more are refused, undecoded
 
-  /// Throws InputError for a layout that is not known.
+  /// Throws InputError for a layout that is not known, or a limit out of 1..2^30.
   void check() const;
 };
 
@@ -63,8 +66,11 @@ struct SequenceOptions {
 /// without vignetting and with the median exposure. A camera file with a vignette but no gamma is taken to store
 /// radiance itself (gamma 1). Without vignette and exposures nothing changes.
 ///
-/// Images are decoded when asked for and not kept. Colour files that are listed must exist; missing depth or truth is
-/// no error. Errors: InputError naming the file. Copies share the data. Const calls are thread safe.
+/// Poses in a survey's frame, too far from the origin for single precision, are refused (require_near_origin).
+///
+/// Images are decoded when asked for and not kept, and only once their header says that they have the camera's size.
+/// Colour files that are listed must exist; missing depth or truth is no error. Errors: InputError naming the file.
+/// Copies share the data. Const calls are thread safe.
 class Sequence {
  public:
   static Sequence open(const std::string& path, const SequenceOptions& options = {});

@@ -15,6 +15,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/core/near_origin.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/ply.hpp"
 #include "odosplat/io/ply_header.hpp"
@@ -92,6 +93,17 @@ Gaussians gaussians_from_ply(const Ply& ply) {
   return gaussians;
 }
 
+// A map whose places went through single precision far from the origin is spoilt, whoever made it.
+Gaussians near_origin(const std::string& name, Gaussians gaussians) {
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(gaussians.size());
+  for (std::size_t i = 0; i < gaussians.size(); ++i) {
+    positions.push_back(Eigen::Map<const Eigen::Vector3f>(&gaussians.positions[3 * i]).cast<double>());
+  }
+  require_near_origin(name, positions);
+  return gaussians;
+}
+
 void write_splat(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
   if (blend_order_from_lines(notes) == BlendOrder::distance) {
     log_warning(path + ": .splat cannot say that these Gaussians are sorted by distance (train --blend-order depth)");
@@ -107,8 +119,10 @@ void write_splat(const std::string& path, const Gaussians& gaussians, const std:
 std::vector<std::string> header_notes(const std::string& path) {
   constexpr int most_lines = 10000;  // of a header; a file that is no PLY need not end its lines
   const std::string comment = "comment ";
-  std::ifstream file(path, std::ios::binary);
   std::vector<std::string> notes;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return notes;  // opening a FIFO would wait for its writer
+  std::ifstream file(path, std::ios::binary);
   std::string line;
   for (int i = 0; i < most_lines && std::getline(file, line) && line != "end_header"; ++i) {
     if (i == 0 && !line.starts_with("ply")) break;
@@ -128,6 +142,7 @@ bool is_splat_path(const std::string& path) {
 
 bool is_map_file(const std::string& path) {
   if (is_splat_path(path)) return true;
+  require_regular_file(path);
   std::ifstream in(path, std::ios::binary);
   std::string magic(3, '\0');
   in.read(magic.data(), 3);
@@ -142,11 +157,12 @@ bool is_map_file(const std::string& path) {
 }
 
 Gaussians read_map(const std::string& path) {
-  return is_splat_path(path) ? parse_splat(path, read_file(path)) : gaussians_from_ply(read_ply(path));
+  return near_origin(path, is_splat_path(path) ? parse_splat(path, read_file(path, max_data_bytes))
+                                               : gaussians_from_ply(read_ply(path)));
 }
 
 Gaussians parse_map(const std::string& name, const std::string& bytes) {
-  return is_splat_path(name) ? parse_splat(name, bytes) : gaussians_from_ply(parse_ply(name, bytes));
+  return near_origin(name, is_splat_path(name) ? parse_splat(name, bytes) : gaussians_from_ply(parse_ply(name, bytes)));
 }
 
 std::vector<std::string> read_map_notes(const std::string& path) {

@@ -19,7 +19,8 @@ namespace odosplat {
 ///   scale_0..2 (ln m), rot_0..3 (w x y z)
 /// with K = (degree + 1)^2 coefficients, degree 0..3. Other properties (nx ny nz) are ignored.
 /// Throws InputError naming the file and the fault: missing file or property, a number of f_rest that fits no degree, a
-/// value that is not finite (naming the Gaussian), no Gaussians, and what read_ply refuses.
+/// value that is not finite (naming the Gaussian), no Gaussians, a map too far from the origin for single precision
+/// (require_near_origin), and what read_ply refuses.
 Gaussians read_map(const std::string& path);
 /// The same from memory; `name` stands for the file, its extension included.
 Gaussians parse_map(const std::string& name, const std::string& bytes);
