@@ -98,7 +98,8 @@ void add_cloud(CLI::App& app, Common& common) {
   CLI::Option* from = command->add_option("--from", flags->from,
                                           std::string(cloud_formats) + " to thin instead; may be given several times");
   from->excludes(sequence)->expected(1)->take_all();
-  for (const char* of_sequence : {"--layout", "--camera"}) from->excludes(command->get_option(of_sequence));
+  for (const char* of_sequence : {"--layout", "--camera", "--max-image-pixels"})
+    from->excludes(command->get_option(of_sequence));
   command->add_option("--out", flags->out, "cloud to write (PLY)")->required();
   from->excludes(command->add_option("--every", flags->every, "use every Nth frame")->check(CLI::PositiveNumber));
   from->excludes(command->add_option("--frames", flags->frames, frames_help));

@@ -8,6 +8,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/core/near_origin.hpp"
 #include "odosplat/io/trajectory_file.hpp"
 #include "odosplat/map/neighbor_search.hpp"
 #include "odosplat/splat/map_file.hpp"
@@ -71,7 +72,9 @@ std::vector<SE3> sampled_places(const std::vector<Eigen::Vector3f>& points_world
 std::vector<SE3> places_of(const MapFlags& flags, const std::string& file) {
   if (!file.empty()) {
     std::vector<SE3> poses;
-    for (const StampedPose& pose : read_trajectory(file)) poses.push_back(pose.T_world_camera);
+    const Trajectory trajectory = read_trajectory(file);
+    require_near_origin(file, trajectory);
+    for (const StampedPose& pose : trajectory) poses.push_back(pose.T_world_camera);
     return thinned_places(poses);
   }
   if (!flags.map.empty()) {

@@ -7,6 +7,7 @@
 
 #include "map_views.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/near_origin.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/camera_file.hpp"
@@ -63,6 +64,7 @@ void run(const Common& common, const RenderFlags& flags) {
   const CameraFile camera = read_camera_file(flags.camera);
   const PoseFile file = read_pose_file(flags.poses);
   const Trajectory& poses = file.poses;
+  require_near_origin(flags.poses, poses);
   if (method_preset(flags.method).view == ViewKind::sensor) throw InputError("--method", "rgbd has no map to render");
   OpenedView opened = open_view(common, flags.method, flags.map);
   // Sixteen bits: a depth beyond their range is none, a sigma beyond it the largest.

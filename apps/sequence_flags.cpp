@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 
 #include "odosplat/core/error.hpp"
 
@@ -21,6 +22,14 @@ void add_layout_flags(CLI::App* command, SequenceFlags& flags) {
       "--layout", flags.options.layout,
       "tum, icl, redwood, sevenscenes, replica, colmap, nerfstudio, images or video (default: detected)");
   command->add_option("--camera", flags.options.camera_file, "camera.yaml to use instead of the sequence's own");
+  add_image_limit_flag(command, flags.options);
+}
+
+void add_image_limit_flag(CLI::App* command, SequenceOptions& options) {
+  command
+      ->add_option("--max-image-pixels", options.max_image_pixels,
+                   "refuse images of more pixels than this before they are decoded")
+      ->check(CLI::Range(std::int64_t{1}, ImageLimit::most_pixels));
 }
 
 Sequence open_sequence(const SequenceFlags& flags) { return Sequence::open(flags.path, flags.options); }

@@ -18,11 +18,14 @@ struct SequenceFlags {
   SequenceOptions options;
 };
 
-/// Declares SEQ (returned), --layout and --camera.
+/// Declares SEQ (returned), --layout, --camera and --max-image-pixels.
 CLI::Option* add_sequence_flags(CLI::App* command, SequenceFlags& flags);
 
-/// --layout and --camera alone, where the sequence has a flag of its own.
+/// The same but SEQ, where the sequence has a flag of its own.
 void add_layout_flags(CLI::App* command, SequenceFlags& flags);
+
+/// --max-image-pixels alone.
+void add_image_limit_flag(CLI::App* command, SequenceOptions& options);
 
 Sequence open_sequence(const SequenceFlags& flags);
 

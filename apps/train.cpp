@@ -237,6 +237,7 @@ void add_train(CLI::App& app, Common& common) {
   auto job = std::make_shared<TrainJob>();
   command->add_option("SEQ", job->sequences, "sequences in one world frame")->required();
   command->add_option("--layout", job->sequence_options.layout, "layout of the sequences (default: detected)");
+  add_image_limit_flag(command, job->sequence_options);
   command->add_option("--camera", job->sequence_options.camera_file, "camera.yaml to use instead of their own");
   command->add_option("--cloud", job->cloud, cloud_formats)->required();
   command->add_option("--voxel", job->voxel, "thin the cloud to one point a voxel of this edge [m], 0 = as it is");

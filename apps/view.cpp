@@ -7,6 +7,7 @@
 #include "map_views.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/core/near_origin.hpp"
 #include "odosplat/eval/evaluate.hpp"
 #include "odosplat/io/camera_file.hpp"
 #include "odosplat/io/trajectory_file.hpp"
@@ -33,6 +34,7 @@ void run_map(const MapViewFlags& flags) {
   set_size(flags.output, figure);
   figure.map = read_map_points(flags.map);
   if (!flags.poses.empty()) figure.cameras = read_trajectory(flags.poses);
+  require_near_origin(flags.poses, figure.cameras);
   if (!flags.camera.empty()) figure.camera = read_camera_file(flags.camera).camera;
   figure.title = flags.title;
   log_info("drawing " + std::to_string(figure.map.cloud.size()) + " points");
@@ -61,6 +63,8 @@ void run_trajectory(const TrajectoryViewFlags& flags) {
   figure.map = read_map_points(flags.map);
   figure.estimate = read_trajectory(flags.estimate);
   if (!flags.truth.empty()) figure.truth = read_trajectory(flags.truth);
+  require_near_origin(flags.estimate, figure.estimate);
+  require_near_origin(flags.truth, figure.truth);
   figure.title = flags.title;
   if (figure.title.empty() && !figure.truth.empty()) figure.title = error_title(figure.estimate, figure.truth);
   log_info("drawing " + std::to_string(figure.map.cloud.size()) + " points");

@@ -6,6 +6,7 @@
 
 #include "map_views.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/near_origin.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/camera_file.hpp"
 #include "odosplat/io/trajectory_file.hpp"
@@ -49,6 +50,7 @@ void run(const Common& common, const FlyFlags& flags) {
     camera = camera.resized(size.width, size.height);
   }
   const Trajectory poses = read_trajectory(flags.poses);
+  require_near_origin(flags.poses, poses);
   if (poses.empty()) throw InputError(flags.poses, "holds no pose");
   if (method_preset(flags.method).view == ViewKind::sensor) throw InputError("--method", "rgbd has no map to render");
   OpenedView opened = open_view(common, flags.method, flags.map);

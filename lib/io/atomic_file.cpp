@@ -20,6 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A FIFO would hang, a device would never end.
+constexpr const char* not_regular = "is not a regular file";
+
 std::string cannot_write(const std::string& reason) { return "cannot be written: " + reason; }
 
 std::string reason_of(const std::system_error& e) {
@@ -156,24 +159,24 @@ void ensure_output_file(const std::string& path) {
   remove_leftovers(parent, fs::path(target).filename().string());
 }
 
-void refuse_special_file(const std::string& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
-    throw InputError(path, S_ISDIR(status.st_mode) ? "is not a file" : "is not a regular file");
-  }
-}
-
-std::string read_file(const std::string& path, std::size_t most_bytes) {
-  // Without O_NONBLOCK a pipe without a writer would be waited for.
-  const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+std::string read_file(const std::string& path, std::uint64_t max_bytes) {
+  // O_NONBLOCK: opening a FIFO would wait for its writer. Regular files do not know the difference.
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) throw InputError(path, errno == ENOENT ? "is missing" : std::strerror(errno));
   struct stat status {};
-  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
+  const bool known = ::fstat(file, &status) == 0;
+  if (!known || !S_ISREG(status.st_mode)) {
     ::close(file);
-    throw InputError(path, S_ISDIR(status.st_mode) ? "is not a file" : "is not a regular file");
+    throw InputError(path, not_regular);
   }
+  const auto refuse_above = [&](std::uint64_t bytes) {
+    if (bytes <= max_bytes) return;
+    ::close(file);
+    throw InputError(path, "is larger than the " + std::to_string(max_bytes >> 20U) + " MB that such a file may have");
+  };
+  refuse_above(static_cast<std::uint64_t>(status.st_size));
   std::string content;
-  content.reserve(std::min(most_bytes, static_cast<std::size_t>(status.st_size)));
+  content.reserve(static_cast<std::size_t>(status.st_size));
   char block[1 << 16];
   while (true) {
     const ssize_t n = ::read(file, block, sizeof(block));
@@ -184,14 +187,20 @@ std::string read_file(const std::string& path, std::size_t most_bytes) {
       ::close(file);
       throw InputError(path, std::string("cannot be read: ") + std::strerror(error));
     }
-    if (static_cast<std::size_t>(n) > most_bytes - content.size()) {
-      ::close(file);
-      throw InputError(path, "is larger than " + std::to_string(most_bytes >> 20U) + " MiB");
-    }
+    // Files of /proc have a size of 0, and others grow.
+    refuse_above(content.size() + static_cast<std::uint64_t>(n));
     content.append(block, static_cast<std::size_t>(n));
   }
   ::close(file);
   return content;
+}
+
+void require_regular_file(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) {
+    throw InputError(path, errno == ENOENT ? "is missing" : std::strerror(errno));
+  }
+  if (!S_ISREG(status.st_mode)) throw InputError(path, not_regular);
 }
 
 }  // namespace odosplat

@@ -2,8 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <cstddef>
-#include <limits>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -61,12 +60,17 @@ void ensure_output_folder(const std::string& path);
 /// file could not be replaced (see AtomicFile).
 void ensure_output_file(const std::string& path);
 
-/// Whole content of a regular file. InputError if it is missing, a folder, a pipe, a device or the like, larger than
-/// `most_bytes`, or cannot be read.
-std::string read_file(const std::string& path, std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
+/// The most that a file read at once may hold: what is beyond fills the memory before its content can be judged. Lists,
+/// trajectories and descriptions of millions of lines lie below the first, models and maps of millions of points below
+/// the second.
+inline constexpr std::uint64_t max_text_bytes = std::uint64_t{256} << 20U;
+inline constexpr std::uint64_t max_data_bytes = std::uint64_t{4} << 30U;
 
-/// InputError if there is something at the path that is no regular file: opening a pipe would wait for ever, and a
-/// device need not end. For files that are not read by read_file().
-void refuse_special_file(const std::string& path);
+/// Whole content of a regular file of max_bytes at most. InputError if it is missing, larger, anything else (a folder,
+/// a FIFO, a device: none of them is waited for), or cannot be read.
+std::string read_file(const std::string& path, std::uint64_t max_bytes = max_text_bytes);
+
+/// InputError unless path is a regular file, or a link to one: for readers that open it themselves.
+void require_regular_file(const std::string& path);
 
 }  // namespace odosplat

@@ -162,7 +162,7 @@ CameraFile parse_camera_file(const std::string& name, const std::string& text) {
   return file;
 }
 
-CameraFile read_camera_file(const std::string& path) { return parse_camera_file(path, read_file(path)); }
+CameraFile read_camera_file(const std::string& path) { return parse_camera_file(path, read_file(path, max_size)); }
 
 void write_camera_file(const std::string& path, const CameraFile& file) {
   std::string text;

@@ -12,6 +12,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/cloud_source.hpp"
 #include "odosplat/io/foreign_format.hpp"
 #include "odosplat/io/text_words.hpp"
@@ -155,10 +156,8 @@ void scan(const std::string& name, const MakeInput& make_input, const CloudSink&
 }  // namespace
 
 void scan_cloud(const std::string& path, const CloudSink& sink) {
+  require_regular_file(path);
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError(path, "is missing");
-  if (!std::filesystem::is_regular_file(status)) throw InputError(path, "is not a file");
   const auto make_input = [&] {
     CloudInput input{path, std::make_unique<std::ifstream>(path, std::ios::binary), 0};
     input.size = std::filesystem::file_size(path, error);

@@ -134,17 +134,17 @@ void add_colmap_point(const std::string& name, const std::string& place, const d
 }
 
 ColmapCameras read_colmap_cameras(const std::string& path) {
-  const std::string content = read_file(path);
+  const std::string content = read_file(path, max_data_bytes);
   return is_binary(path) ? parse_colmap_cameras_binary(path, content) : parse_colmap_cameras_text(path, content);
 }
 
 std::vector<ColmapImage> read_colmap_images(const std::string& path) {
-  const std::string content = read_file(path);
+  const std::string content = read_file(path, max_data_bytes);
   return is_binary(path) ? parse_colmap_images_binary(path, content) : parse_colmap_images_text(path, content);
 }
 
 PointCloud read_colmap_points(const std::string& path) {
-  const std::string content = read_file(path);
+  const std::string content = read_file(path, max_data_bytes);
   return is_binary(path) ? parse_colmap_points_binary(path, content) : parse_colmap_points_text(path, content);
 }
 

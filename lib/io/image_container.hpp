@@ -16,7 +16,8 @@ struct ImageContainer {
 };
 
 /// Walks a PNG chunk by chunk (ISO/IEC 15948; checksums compared) or a JPEG marker by marker (ITU T.81) to its end.
-/// Throws InputError naming the file: neither of both, ends too early, a checksum is wrong, size beyond 32768.
+/// Throws InputError naming the file: neither of both, ends too early, a checksum is wrong, size beyond 32768, two
+/// frame headers or over 500 scans in a JPEG.
 ImageContainer inspect_image(const std::string& name, const std::string& bytes);
 
 /// A PNG with the chunks that pixels need and no others: colour profiles and the like make libpng print warnings and

@@ -16,6 +16,12 @@
 namespace odosplat {
 namespace {
 
+ImageContainer inspect_within(const std::string& name, const std::string& bytes, const ImageLimit& limit) {
+  const ImageContainer container = inspect_image(name, bytes);
+  limit.check(name, {container.width, container.height});
+  return container;
+}
+
 cv::Mat decode(const std::string& name, const std::string& bytes, const ImageContainer& container, int flags) {
   const std::string bare = container.is_png ? bare_png(bytes) : std::string();
   const std::string& source = container.is_png ? bare : bytes;
@@ -46,9 +52,22 @@ unsigned char to_byte(float value) {
 
 }  // namespace
 
-ColorImage parse_color(const std::string& name, const std::string& bytes) {
-  const ImageContainer container = inspect_image(name, bytes);
-  const cv::Mat decoded = decode(name, bytes, container, cv::IMREAD_COLOR);
+void ImageLimit::check(const std::string& name, const cv::Size& size) const {
+  if (std::int64_t{size.width} * size.height > max_pixels) {
+    throw InputError(name, "is " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                               ", over the limit of " + std::to_string(max_pixels) + " pixels (--max-image-pixels)");
+  }
+  if (require_size) require_size(size);
+}
+
+std::uint64_t ImageLimit::max_bytes() const {
+  constexpr std::uint64_t bytes_per_pixel = 8;
+  constexpr std::uint64_t beside_pixels = std::uint64_t{64} << 20U;
+  return bytes_per_pixel * static_cast<std::uint64_t>(max_pixels) + beside_pixels;
+}
+
+ColorImage parse_color(const std::string& name, const std::string& bytes, const ImageLimit& limit) {
+  const cv::Mat decoded = decode(name, bytes, inspect_within(name, bytes, limit), cv::IMREAD_COLOR);
   cv::Mat3b rgb;
   cv::cvtColor(decoded, rgb, cv::COLOR_BGR2RGB);
   ColorImage color;
@@ -56,19 +75,25 @@ ColorImage parse_color(const std::string& name, const std::string& bytes) {
   return color;
 }
 
-cv::Mat1w parse_depth_raw(const std::string& name, const std::string& bytes) {
-  const ImageContainer container = inspect_image(name, bytes);
+cv::Mat1w parse_depth_raw(const std::string& name, const std::string& bytes, const ImageLimit& limit) {
+  const ImageContainer container = inspect_within(name, bytes, limit);
   if (!container.is_png || !container.is_gray || container.bits != 16)
     throw InputError(name, "is not a 16-bit grey PNG");
   return decode(name, bytes, container, cv::IMREAD_UNCHANGED);
 }
 
-ColorImage read_color(const std::string& path) { return parse_color(path, read_file(path)); }
-GrayImage read_gray(const std::string& path) { return to_gray(read_color(path)); }
-cv::Mat1w read_depth_raw(const std::string& path) { return parse_depth_raw(path, read_file(path)); }
+ColorImage read_color(const std::string& path, const ImageLimit& limit) {
+  return parse_color(path, read_file(path, limit.max_bytes()), limit);
+}
 
-cv::Size read_image_size(const std::string& path) {
-  const ImageContainer container = inspect_image(path, read_file(path));
+GrayImage read_gray(const std::string& path, const ImageLimit& limit) { return to_gray(read_color(path, limit)); }
+
+cv::Mat1w read_depth_raw(const std::string& path, const ImageLimit& limit) {
+  return parse_depth_raw(path, read_file(path, limit.max_bytes()), limit);
+}
+
+cv::Size read_image_size(const std::string& path, const ImageLimit& limit) {
+  const ImageContainer container = inspect_within(path, read_file(path, limit.max_bytes()), limit);
   return {container.width, container.height};
 }
 

@@ -64,7 +64,8 @@ SequenceIndex index_nerfstudio(const std::string& path, const SequenceOptions& o
   CameraFile camera;
   if (options.camera_file.empty() && !file_exists(join(folder, "camera.yaml"))) {
     cv::Size size;
-    if (!transforms.frames.front().camera.has_size()) size = read_image_size(files.color[0]);
+    if (!transforms.frames.front().camera.has_size())
+      size = read_image_size(files.color[0], {options.max_image_pixels, {}});
     camera = transforms.camera(file, size);
   }
   camera.depth_scale = transforms.depth_scale;

@@ -113,14 +113,14 @@ ColorImage PhotometricCorrection::apply(const ColorImage& image, double exposure
   return corrected;
 }
 
-cv::Mat1f read_vignette(const std::string& path) {
-  const std::string bytes = read_file(path);
+cv::Mat1f read_vignette(const std::string& path, const ImageLimit& limit) {
+  const std::string bytes = read_file(path, limit.max_bytes());
   const ImageContainer container = inspect_image(path, bytes);
   cv::Mat1f vignette;
   if (container.is_png && container.is_gray && container.bits == 16) {
-    parse_depth_raw(path, bytes).convertTo(vignette, CV_32F);
+    parse_depth_raw(path, bytes, limit).convertTo(vignette, CV_32F);
   } else {
-    vignette = to_gray(parse_color(path, bytes));
+    vignette = to_gray(parse_color(path, bytes, limit));
   }
   double largest = 0.0;
   cv::minMaxLoc(vignette, nullptr, &largest);

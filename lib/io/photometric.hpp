@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "odosplat/core/image.hpp"
+#include "odosplat/io/image_file.hpp"
 
 namespace odosplat {
 
@@ -35,8 +36,8 @@ class PhotometricCorrection {
 };
 
 /// Vignette from an image file, as DSO's calibration has it: grey, 8 or 16 bits, divided by its largest value.
-/// InputError naming the file: missing, damaged, black everywhere.
-cv::Mat1f read_vignette(const std::string& path);
+/// InputError naming the file: missing, beyond the limit, damaged, black everywhere.
+cv::Mat1f read_vignette(const std::string& path, const ImageLimit& limit = {});
 
 /// Exposure times of a list, each over their median.
 ///   exposures.txt  "time exposure" a line; frames find theirs by time, at most 0.01 s away, and all must find one

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/ply.hpp"
 #include "odosplat/io/ply_body.hpp"
 #include "odosplat/io/ply_header.hpp"
@@ -29,10 +30,8 @@ Ply read_from(const std::string& name, std::istream& in, std::uint64_t size) {
 }  // namespace
 
 Ply read_ply(const std::string& path) {
+  require_regular_file(path);
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError(path, "is missing");
-  if (!std::filesystem::is_regular_file(status)) throw InputError(path, "is not a file");
   std::ifstream in(path, std::ios::binary);
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!in || error) throw InputError(path, "cannot be read");

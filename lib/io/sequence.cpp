@@ -10,6 +10,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/core/near_origin.hpp"
 #include "odosplat/io/image_file.hpp"
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/photometric.hpp"
@@ -65,6 +66,7 @@ std::string last_part(const std::string& path) {
 
 void SequenceOptions::check() const {
   if (!layout.empty()) layout_named(layout);
+  require(max_image_pixels >= 1 && max_image_pixels <= ImageLimit::most_pixels, "--max-image-pixels", "1 to 2^30");
 }
 
 struct Sequence::Data {
@@ -73,6 +75,7 @@ struct Sequence::Data {
   SequenceIndex index;
   double fps = default_fps;
   bool reflected = false;
+  std::int64_t max_image_pixels = ImageLimit::default_max_pixels;
   Undistorter undistorter;
   PhotometricCorrection photometric;
   std::vector<double> exposures;  // a frame, median 1; empty: not known
@@ -96,9 +99,14 @@ struct Sequence::Data {
     }
   }
 
+  ImageLimit any_size() const { return {max_image_pixels, {}}; }
+  ImageLimit camera_size_only(const std::string& file) const {
+    return {max_image_pixels, [this, &file](const cv::Size& size) { require_camera_size(file, size); }};
+  }
+
   void require_depth_size(const FrameFiles& files, const cv::Size& size) const {
     if (size == camera_size()) return;
-    if (const cv::Size color = read_image_size(files.color); color != size) {
+    if (const cv::Size color = read_image_size(files.color, any_size()); color != size) {
       throw InputError(files.depth,
                        "is " + size_text(size) + ", its colour image " + files.color + " is " + size_text(color));
     }
@@ -114,11 +122,19 @@ struct Sequence::Data {
     }
     cv::Mat1f vignette;
     if (const std::string file = vignette_file(); !file.empty()) {
-      vignette = read_vignette(file);
-      require_camera_size(file, vignette.size());
+      vignette = read_vignette(file, camera_size_only(file));
     }
     const double gamma = index.camera.gamma > 0.0 ? index.camera.gamma : 1.0;
     photometric = PhotometricCorrection(gamma, vignette);
+  }
+
+  void require_near() const {
+    require_near_origin(name, index.truth);
+    std::vector<Eigen::Vector3d> positions;
+    for (const FrameFiles& f : index.frames) {
+      if (f.T_world_camera) positions.push_back(f.T_world_camera->translation());
+    }
+    require_near_origin(name, positions);
   }
 
   void require_files() {
@@ -137,12 +153,14 @@ struct Sequence::Data {
 };
 
 Sequence Sequence::open(const std::string& path, const SequenceOptions& options) {
+  options.check();
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError(path, "is missing");
   const Layout& layout = options.layout.empty() ? detect(path) : layout_named(options.layout);
   auto data = std::make_shared<Data>();
   data->name = last_part(path);
   data->layout = layout.name;
+  data->max_image_pixels = options.max_image_pixels;
   data->index = layout.index(path, options);
   SequenceIndex& index = data->index;
   data->require_files();
@@ -154,11 +172,15 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
     }
     for (StampedPose& pose : index.truth) pose.T_world_camera = reflected(pose.T_world_camera);
   }
+  data->require_near();
   data->fps = index.camera.fps > 0.0 ? index.camera.fps : median_fps(index.frames);
+  // Videos have no header of ours, and what the lens has done is undone at the camera's size.
+  data->any_size().check(index.camera_source, data->camera_size());
   if (index.video) {
     data->require_camera_size(path, index.video->frame_size());
   } else {
-    data->require_camera_size(index.frames.front().color, read_image_size(index.frames.front().color));
+    const std::string& first = index.frames.front().color;
+    read_image_size(first, data->camera_size_only(first));
   }
   // Interpolation and gradients need a neighbor.
   if (const cv::Size size = data->camera_size(); size.width < smallest_side || size.height < smallest_side) {
@@ -237,8 +259,7 @@ ColorImage Sequence::color(std::size_t i) const {
   if (data_->index.video) {
     data_->index.video->frame(i).convertTo(image, CV_32F, 1.0 / 255.0);
   } else {
-    image = read_color(files.color);
-    data_->require_camera_size(files.color, image.size());
+    image = read_color(files.color, data_->camera_size_only(files.color));
   }
   return data_->undistorter.color(data_->photometric.apply(image, data_->exposure(i)));
 }
@@ -246,8 +267,9 @@ ColorImage Sequence::color(std::size_t i) const {
 DepthImage Sequence::depth(std::size_t i) const {
   const FrameFiles& files = data_->frame(i);
   if (files.depth.empty()) throw InputError(data_->name, "frame " + std::to_string(i), "has no depth image");
-  const cv::Mat1w raw = read_depth_raw(files.depth);
-  data_->require_depth_size(files, raw.size());
+  const ImageLimit limit{data_->max_image_pixels,
+                         [&](const cv::Size& size) { data_->require_depth_size(files, size); }};
+  const cv::Mat1w raw = read_depth_raw(files.depth, limit);
   DepthImage depth(raw.size());
   const double metres = 1.0 / data_->index.camera.depth_scale;
   for (int y = 0; y < raw.rows; ++y) {

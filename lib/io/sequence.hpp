@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "odosplat/core/point_cloud.hpp"
 #include "odosplat/core/trajectory.hpp"
 #include "odosplat/io/camera_file.hpp"
+#include "odosplat/io/image_file.hpp"
 
 namespace odosplat {
 
@@ -20,8 +22,9 @@ struct SequenceOptions {
   std::string layout;       // "" = detect, or: tum icl redwood sevenscenes replica colmap nerfstudio images video
   std::string camera_file;  // camera.yaml that counts instead of the sequence's own and of the layout's calibration
   bool as_stored = false;   // true: poses as the files have them even where fy is negative (for checking conventions)
+  std::int64_t max_image_pixels = ImageLimit::default_max_pixels;  // images of more are refused, undecoded
 
-  /// Throws InputError for a layout that is not known.
+  /// Throws InputError for a layout that is not known, or a limit out of 1..2^30.
   void check() const;
 };
 
@@ -29,10 +32,10 @@ struct SequenceOptions {
 ///
 /// Layouts (path: a folder, or a video file; formats as their authors publish them):
 ///   tum          rgb.txt, or associations.txt whose ids are times (with a decimal point); camera.yaml; if there,
-///                depth.txt and groundtruth.txt. Depth belongs to the colour image of its pair, without pairs to the one
-///                nearest in time, at most 0.02 s away as in TUM's own tool, each depth image to one colour image. Pose
-///                of a colour image: of equal stamp; else between the two poses around it if those are at most 0.1 s
-///                apart; else the nearest within 0.01 s; else none, and none where groundtruth.txt has a pose of that
+///                depth.txt and groundtruth.txt. Depth belongs to the colour image of its pair, without pairs to the
+///                one nearest in time, at most 0.02 s away as in TUM's own tool, each depth image to one colour image.
+///                Pose of a colour image: of equal stamp; else between the two poses around it if those are at most 0.1
+///                s apart; else the nearest within 0.01 s; else none, and none where groundtruth.txt has a pose of that
 ///                stamp that is not finite.
 ///   icl          associations.txt (ids, depth first), *.gt.freiburg or *.gt.sim: image k has the pose with id k.
 ///                481.2 -480 319.5 239.5, 5000 a metre.
@@ -47,10 +50,10 @@ struct SequenceOptions {
 ///                RADIAL, OPENCV. All images must have one camera (common_camera), unless a camera file is given. The
 ///                world and its unit are the model's own: see sparse_points() and `odosplat align`.
 ///   nerfstudio   transforms.json (or such a file by its own name): frames as listed, frame k at k / fps; one camera,
-///                given by the file or by every frame (common_camera), OPENCV or simpler, unless a camera file is given;
-///                names may lack .png, .jpg or .jpeg; depth_file_path in
-///                millimetres or as depth_unit_scale_factor says. The world is that of the stored poses and of
-///                ply_file_path; applied_transform is not undone. Masks are not used.
+///                given by the file or by every frame (common_camera), OPENCV or simpler, unless a camera file is
+///                given; names may lack .png, .jpg or .jpeg; depth_file_path in millimetres or as
+///                depth_unit_scale_factor says. The world is that of the stored poses and of ply_file_path;
+///                applied_transform is not undone. Masks are not used.
 ///   images       PNG and JPEG files in natural order (2 before 10), with a camera file. No poses, no depth.
 ///   video        what OpenCV decodes, with a camera file. All frames are counted at opening.
 /// In every layout a pose that is not finite, or that is not there, is none: the frame is without pose, and one warning
@@ -68,8 +71,11 @@ struct SequenceOptions {
 /// without vignetting and with the median exposure. A camera file with a vignette but no gamma is taken to store
 /// radiance itself (gamma 1). Without vignette and exposures nothing changes.
 ///
-/// Images are decoded when asked for and not kept. Colour files that are listed must exist; missing depth or truth is
-/// no error. Errors: InputError naming the file. Copies share the data. Const calls are thread safe.
+/// Poses in a survey's frame, too far from the origin for single precision, are refused (require_near_origin).
+///
+/// Images are decoded when asked for and not kept, and only once their header says that they have the camera's size.
+/// Colour files that are listed must exist; missing depth or truth is no error. Errors: InputError naming the file.
+/// Copies share the data. Const calls are thread safe.
 class Sequence {
  public:
   static Sequence open(const std::string& path, const SequenceOptions& options = {});

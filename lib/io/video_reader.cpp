@@ -42,7 +42,7 @@ struct VideoReader::State {
 VideoReader::VideoReader(std::string path) : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.path = std::move(path);
-  refuse_special_file(s.path);
+  require_regular_file(s.path);
   if (!open_capture(s.capture, s.path)) throw InputError(s.path, "is not a video that can be read");
   s.fps = s.capture.get(cv::CAP_PROP_FPS);
   if (!std::isfinite(s.fps) || s.fps < 0.0) s.fps = 0.0;

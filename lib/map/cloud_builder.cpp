@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "odosplat/core/cloud_batch.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/map/cloud_filters.hpp"
@@ -106,7 +107,7 @@ PointCloud CloudBuilder::finish() const {
     const float length = cell.normal.norm();
     const Eigen::Vector3f ray = length > 1e-3F ? Eigen::Vector3f(cell.normal / length) : Eigen::Vector3f::Zero();
     const double shift = options_.noise > 0.0 ? options_.noise * random.normal() : 0.0;
-    cloud.points.emplace_back((cell.point / cell.count + shift * ray.cast<double>()).cast<float>());
+    cloud.points.push_back(round_point("cloud", cell.point / cell.count + shift * ray.cast<double>()));
     if (with_color_) cloud.colors.emplace_back(cell.color / static_cast<float>(cell.count));
     rays.push_back(ray);
   }

@@ -46,7 +46,8 @@ class CloudBuilder {
   void add(const DepthImage& depth, const ColorImage& color, const Camera& camera, const SE3& T_world_camera);
 
   /// The cloud of all images so far, with colours if there were any and with normals unless not wanted, in the order in
-  /// which the voxels were met. Empty if there was no depth. May be called again after further add().
+  /// which the voxels were met. Empty if there was no depth. InputError if a point is too far from the origin for
+  /// single precision (round_point). May be called again after further add().
   PointCloud finish() const;
 
   std::size_t voxels() const { return grid_.cells().size(); }

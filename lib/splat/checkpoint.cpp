@@ -75,7 +75,7 @@ void Checkpoint::write(const std::string& path) const {
 }
 
 Checkpoint Checkpoint::read(const std::string& path) {
-  const std::string bytes = read_file(path);
+  const std::string bytes = read_file(path, max_data_bytes);
   if (!bytes.starts_with(title)) throw InputError(path, "is no checkpoint of this version of odosplat");
   std::uint64_t stored = 0;
   if (bytes.size() < title.size() + sizeof(stored)) throw InputError(path, "is cut short");

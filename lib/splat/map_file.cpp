@@ -16,6 +16,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/core/near_origin.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/foreign_format.hpp"
 #include "odosplat/io/ply.hpp"
@@ -131,6 +132,17 @@ Gaussians gaussians_from_ply(const Ply& ply) {
   return gaussians;
 }
 
+// A map whose places went through single precision far from the origin is spoilt, whoever made it.
+Gaussians near_origin(const std::string& name, Gaussians gaussians) {
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(gaussians.size());
+  for (std::size_t i = 0; i < gaussians.size(); ++i) {
+    positions.push_back(Eigen::Map<const Eigen::Vector3f>(&gaussians.positions[3 * i]).cast<double>());
+  }
+  require_near_origin(name, positions);
+  return gaussians;
+}
+
 void write_splat(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
   if (blend_order_from_lines(notes) == BlendOrder::distance) {
     log_warning(path + ": .splat cannot say that these Gaussians are sorted by distance (train --blend-order depth)");
@@ -144,7 +156,8 @@ void write_splat(const std::string& path, const Gaussians& gaussians, const std:
 
 /// What the header's comments say; none if the file is no PLY or cannot be read.
 std::vector<std::string> header_notes(const std::string& path) {
-  refuse_special_file(path);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
   std::ifstream file(path, std::ios::binary);
   try {
     return read_ply_header(path, file).comments;
@@ -153,8 +166,10 @@ std::vector<std::string> header_notes(const std::string& path) {
   }
 }
 
-/// Empty if the file cannot be read.
+/// Empty if it is no regular file or cannot be read.
 std::string first_bytes(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};  // opening a FIFO would wait for its writer
   std::ifstream in(path, std::ios::binary);
   std::string bytes(16, '\0');
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -173,7 +188,7 @@ bool is_splat_path(const std::string& path) {
 
 bool is_map_file(const std::string& path) {
   if (is_splat_path(path)) return true;
-  refuse_special_file(path);
+  require_regular_file(path);
   const std::string start = first_bytes(path);
   const bool is_marked = start.starts_with(byte_order_mark);
   if (!std::string_view(start).substr(is_marked ? byte_order_mark.size() : 0).starts_with("ply")) return false;
@@ -188,12 +203,13 @@ bool is_map_file(const std::string& path) {
 
 Gaussians read_map(const std::string& path) {
   refuse_foreign_format(path, first_bytes(path));
-  return is_splat_path(path) ? parse_splat(path, read_file(path)) : gaussians_from_ply(read_ply(path));
+  return near_origin(path, is_splat_path(path) ? parse_splat(path, read_file(path, max_data_bytes))
+                                               : gaussians_from_ply(read_ply(path)));
 }
 
 Gaussians parse_map(const std::string& name, const std::string& bytes) {
   refuse_foreign_format(name, bytes);
-  return is_splat_path(name) ? parse_splat(name, bytes) : gaussians_from_ply(parse_ply(name, bytes));
+  return near_origin(name, is_splat_path(name) ? parse_splat(name, bytes) : gaussians_from_ply(parse_ply(name, bytes)));
 }
 
 std::vector<std::string> read_map_notes(const std::string& path) {

@@ -24,8 +24,8 @@ namespace odosplat {
 /// infinity 1e-10 m. Gaussians with other values that are not finite are left out with one warning (BrokenRows).
 /// Throws InputError naming the file and the fault: missing file or property, a property of whole numbers (half floats
 /// stored as ushort), a number of f_rest that fits no degree, more than a tenth of the Gaussians broken (naming the
-/// first), no Gaussians, a format that is not read (refuse_foreign_format, refuse_packed_ply), and what read_ply
-/// refuses.
+/// first), no Gaussians, a format that is not read (refuse_foreign_format, refuse_packed_ply), a map too far from the
+/// origin for single precision (require_near_origin), and what read_ply refuses.
 Gaussians read_map(const std::string& path);
 /// The same from memory; `name` stands for the file, its extension included.
 Gaussians parse_map(const std::string& name, const std::string& bytes);

@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <functional>
+#include <sstream>
 
 #include "odosplat/io/image_file.hpp"
 #include "run_program.hpp"
@@ -140,6 +143,61 @@ TEST_F(BadInput, CameraFile) {
 TEST_F(BadInput, DepthAndColourOfDifferentSizes) {
   write_png16(sequence_ + "/depth/0000.png", cv::Mat1w(60, 80, std::uint16_t{5000}));
   expect_cloud_refused("0000.png", "80x60.*160x120|160x120.*80x60");
+}
+
+TEST_F(BadInput, ImagesAndTextsThatWouldFillTheMemory) {
+  const std::string camera = read_text(sequence_ + "/camera.yaml");
+  expect_camera_refused(camera + "vignette: /dev/zero\n", "/dev/zero: is not a regular file");
+  write_text(sequence_ + "/camera.yaml", camera);
+  const std::string fifo = scratch_ / "fifo";
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  for (const std::string& file : {fifo, std::string("/dev/zero")}) {
+    expect_refused({"check", sequence_, "--camera", file}, file, "is not a regular file");
+    expect_refused({"eval", file, "--truth", sequence_ + "/groundtruth.txt"}, file, "is not a regular file");
+    expect_refused({"track", sequence_, "--map", file, "--out", scratch_ / "run"}, file, "is not a regular file");
+    expect_refused({"convert", file, scratch_ / "m.ply"}, file, "is not a regular file", scratch_ / "m.ply");
+    expect_refused({"synthesize", "--scene", file, "--cloud", scratch_ / "m.ply"}, file, "is not a regular file");
+  }
+  const std::string out = scratch_ / "never.ply";
+  expect_refused({"cloud", sequence_, "--max-image-pixels", "19199", "--out", out}, "160x120", "--max-image-pixels",
+                 out);
+  expect_refused({"check", sequence_, "--max-image-pixels", "0"}, "--max-image-pixels", "");
+}
+
+TEST_F(BadInput, CoordinatesOfASurvey) {
+  std::string poses;
+  for (int k = 0; k < 24; ++k) {
+    poses += std::to_string(k) + ".0 " + std::to_string(500000 + k) + " 5000000 100 0 0 0 1\n";
+  }
+  const std::string far = scratch_ / "far.txt";
+  write_text(far, poses);
+  const std::string camera = sequence_ + "/camera.yaml";
+  const std::string fault = "is too far from the origin.*500000 5000000 0.*--origin";
+  const std::vector<std::string> surfels{"--method", "surfel", "--cloud", cloud_};
+  auto with_surfels = [&](std::vector<std::string> words) {
+    words.insert(words.end(), surfels.begin(), surfels.end());
+    return words;
+  };
+  expect_refused(with_surfels({"render", "--poses", far, "--camera", camera, "--out", scratch_ / "r"}), "far.txt",
+                 fault);
+  expect_refused({"view", "map", "--cloud", cloud_, "--poses", far, "--out", scratch_ / "m.png"}, "far.txt", fault,
+                 scratch_ / "m.png");
+  expect_refused(with_surfels({"relocalise", sequence_, "--places", far}), "far.txt", fault);
+  // The sequence's own poses: stamps are taken from rgb.txt.
+  std::string truth;
+  std::istringstream lines(read_text(sequence_ + "/rgb.txt"));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    truth += line.substr(0, line.find(' ')) + " 500000 5000000 100 0 0 0 1\n";
+  }
+  write_text(sequence_ + "/groundtruth.txt", truth);
+  expect_cloud_refused("seq", fault);
+  expect_refused({"train", sequence_, "--cloud", cloud_, "--out", scratch_ / "m.ply"}, "seq", fault,
+                 scratch_ / "m.ply");
+  expect_refused(with_surfels({"track", sequence_, "--out", scratch_ / "run"}), "seq", fault);
+  expect_refused(with_surfels({"eval-depth", sequence_}), "seq", fault);
+  expect_refused({"align", "--poses", sequence_, "--cloud", cloud_, "--points", cloud_, "--out", scratch_ / "a"}, "seq",
+                 fault);
 }
 
 TEST_F(BadInput, UnknownDevice) {

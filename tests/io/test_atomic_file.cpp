@@ -268,25 +268,36 @@ TEST(OutputFolder, RefusesAFileInItsPlace) {
 TEST(ReadFile, NamesWhatItCannotRead) {
   const TempFolder temp;
   EXPECT_EQ(error_of([&] { read_file(temp / "none"); }), temp / "none" + ": is missing");
-  EXPECT_EQ(error_of([&] { read_file(temp.path()); }), temp.path() + ": is not a file");
+  EXPECT_EQ(error_of([&] { read_file(temp.path()); }), temp.path() + ": is not a regular file");
   EXPECT_EQ(read_file(temp.put("empty", "")), "");
 }
 
-TEST(ReadFile, TakesRegularFilesOnly) {
+// None of them is waited for, and none is read until the memory is full.
+TEST(ReadFile, ReadsRegularFilesOnly) {
   const TempFolder temp;
-  ASSERT_EQ(mkfifo((temp / "pipe").c_str(), 0600), 0);
-  for (const std::string& path : {temp / "pipe", std::string("/dev/zero")}) {
-    EXPECT_EQ(error_of([&] { read_file(path); }), path + ": is not a regular file");
-    EXPECT_EQ(error_of([&] { refuse_special_file(path); }), path + ": is not a regular file");
+  const std::string fifo = temp / "fifo";
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  for (const std::string& file : {fifo, std::string("/dev/zero"), temp.path()}) {
+    EXPECT_EQ(error_of([&] { read_file(file); }), file + ": is not a regular file");
+    EXPECT_EQ(error_of([&] { require_regular_file(file); }), file + ": is not a regular file");
   }
-  refuse_special_file(temp / "none");
+  EXPECT_EQ(error_of([&] { require_regular_file(temp / "none"); }), temp / "none" + ": is missing");
+  const std::string file = temp.put("file", "text");
+  require_regular_file(file);
+  std::filesystem::create_symlink(file, temp / "link");
+  require_regular_file(temp / "link");
+  EXPECT_EQ(read_file(temp / "link"), "text");
 }
 
-TEST(ReadFile, StopsAtItsLimit) {
+TEST(ReadFile, HoldsNoMoreThanItsLimit) {
   const TempFolder temp;
-  const std::string file = temp.put("f", std::string(1U << 21U, 'x'));
-  EXPECT_EQ(read_file(file, 1U << 21U).size(), 1U << 21U);
-  EXPECT_EQ(error_of([&] { read_file(file, 1U << 20U); }), file + ": is larger than 1 MiB");
+  const std::string file = temp.put("file", "12345");
+  EXPECT_EQ(read_file(file, 5), "12345");
+  EXPECT_THAT(error_of([&] { read_file(file, 4); }), HasSubstr(file + ": is larger than"));
+  std::filesystem::resize_file(file, max_text_bytes + 1);  // a hole: no space on the disk
+  EXPECT_EQ(error_of([&] { read_file(file); }), file + ": is larger than the 256 MB that such a file may have");
+  // Says that it has no bytes, and has some.
+  EXPECT_THAT(error_of([] { read_file("/proc/self/maps", 100); }), HasSubstr("/proc/self/maps: is larger than"));
 }
 
 }  // namespace

@@ -11,12 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "image_bytes.hpp"
 #include "odosplat/core/random.hpp"
 #include "temp_folder.hpp"
 
 namespace odosplat {
 namespace {
 
+using test::encoded;
 using test::error_of;
 using test::TempFolder;
 using testing::AnyOf;
@@ -30,12 +32,6 @@ cv::Mat3b noise_image(int width, int height) {
     for (int c = 0; c < 3; ++c) pixel[c] = static_cast<unsigned char>(random.below(256));
   }
   return image;
-}
-
-std::string encoded(const std::string& extension, const cv::Mat& image, const std::vector<int>& flags = {}) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(extension, image, bytes, flags);
-  return {bytes.begin(), bytes.end()};
 }
 
 TEST(ImageFile, ColourRoundTrip) {
@@ -216,6 +212,61 @@ TEST(ImageFile, UnwritablePlacesAndEmptyImagesLeaveNothing) {
   EXPECT_THAT(error_of([&] { write_color(temp / "e.png", ColorImage()); }), HasSubstr("the image is empty"));
   EXPECT_THAT(error_of([&] { write_png16(temp / "e.png", cv::Mat1w()); }), HasSubstr("the image is empty"));
   EXPECT_THAT(temp.files(), ElementsAre("file"));
+}
+
+// The pixels belong to another size: decoding them would say "is damaged".
+TEST(ImageFile, SizesAreJudgedByTheHeaderAlone) {
+  const std::string png = encoded(".png", noise_image(20, 15));
+  const std::string depth = encoded(".png", cv::Mat1w(15, 20, std::uint16_t{7}));
+  const std::string jpeg = encoded(".jpg", noise_image(20, 15));
+  const std::string over = " over the limit of 100000000 pixels (--max-image-pixels)";
+  EXPECT_EQ(error_of([&] { parse_color("i.png", test::png_claiming(png, 32768, 32768)); }),
+            "i.png: is 32768x32768," + over);
+  EXPECT_EQ(error_of([&] { parse_color("i.jpg", test::jpeg_claiming(jpeg, 32000, 32000)); }),
+            "i.jpg: is 32000x32000," + over);
+  EXPECT_EQ(error_of([&] { parse_depth_raw("d.png", test::png_claiming(depth, 32768, 4000)); }),
+            "d.png: is 32768x4000," + over);
+  EXPECT_EQ(error_of([&] {
+              parse_color("i.png", test::png_claiming(png, 20, 16), {319, {}});
+            }),
+            "i.png: is 20x16, over the limit of 319 pixels (--max-image-pixels)");
+  EXPECT_EQ(error_of([&] { parse_color("i.png", test::png_claiming(png, 20, 16), {320, {}}); }), "i.png: is damaged");
+  EXPECT_EQ(parse_color("i.png", png, {300, {}}).size(), cv::Size(20, 15));
+
+  const ImageLimit none{1000, [](const cv::Size&) { throw InputError("not this size"); }};
+  EXPECT_EQ(error_of([&] { parse_color("i.png", test::png_claiming(png, 30, 30), none); }), "not this size");
+  EXPECT_EQ(error_of([&] { parse_depth_raw("d.png", test::png_claiming(depth, 30, 30), none); }), "not this size");
+  const TempFolder temp;
+  EXPECT_EQ(error_of([&] {
+              read_image_size(temp.put("i.png", png), {299, {}});
+            }),
+            temp / "i.png" + ": is 20x15, over the limit of 299 pixels (--max-image-pixels)");
+}
+
+TEST(ImageFile, AJpegHasOneHeaderAndFewScans) {
+  const std::string jpeg = encoded(".jpg", noise_image(20, 15));
+  const std::size_t header = jpeg.find("\xff\xc0");
+  const std::size_t length = 2U + static_cast<unsigned char>(jpeg[header + 3]);
+  const std::string second = jpeg.substr(header, length);
+  EXPECT_EQ(error_of([&] { parse_color("i.jpg", std::string(jpeg).insert(header, second)); }), "i.jpg: is damaged");
+  const std::size_t scan = jpeg.find("\xff\xda");
+  const std::string end = "\xff\xd9";
+  std::string many = jpeg.substr(0, jpeg.size() - 2);
+  for (int k = 0; k < 500; ++k) many += jpeg.substr(scan, jpeg.size() - 2 - scan);
+  EXPECT_EQ(error_of([&] { parse_color("i.jpg", many + end); }),
+            "i.jpg: has more scans than any camera or editor writes");
+  EXPECT_EQ(error_of([&] { parse_color("i.jpg", jpeg.substr(0, jpeg.size() - 2) + second + end); }),
+            "i.jpg: is damaged");
+}
+
+TEST(ImageFile, AFileLargerThanItsPixelsCanBeIsNotReadIntoMemory) {
+  const TempFolder temp;
+  const std::string file = temp.put("i.png", encoded(".png", noise_image(3, 3)));
+  std::filesystem::resize_file(file, std::uintmax_t{65} << 20U);  // a hole: no space on the disk
+  EXPECT_EQ(error_of([&] {
+              read_color(file, {9, {}});
+            }),
+            file + ": is larger than the 64 MB that such a file may have");
 }
 
 }  // namespace

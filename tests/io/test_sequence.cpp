@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "image_bytes.hpp"
 #include "temp_folder.hpp"
 
 namespace odosplat {
@@ -248,6 +249,53 @@ TEST(SequenceTum, ImagesOfAnotherSizeThanTheCameraAreFoundAtOpening) {
   temp.put_image("rgb/10.000.png", color_of(0, 32, 24));
   EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }),
             temp / "rgb/10.000.png" + ": is 32x24, " + temp / "camera.yaml" + " is for 16x12");
+}
+
+// The pixels belong to another size: decoding them would say "is damaged".
+TEST(SequenceTum, ImagesAreNotDecodedBeforeTheirSizeIsKnownToBeRight) {
+  const TempFolder temp;
+  put_tum(temp);
+  const std::string color =
+      temp.put("rgb/10.100.png", test::png_claiming(read_file(temp / "rgb/10.100.png"), 9000, 9000));
+  const std::string wrong = ": is 9000x9000, " + temp / "camera.yaml" + " is for 16x12";
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()).color(1); }), color + wrong);
+  temp.put_image("rgb/10.100.png", color_of(1));
+  const std::string depth =
+      temp.put("depth/10.100.png", test::png_claiming(read_file(temp / "depth/10.100.png"), 9000, 9000));
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()).depth(1); }),
+            depth + ": is 9000x9000, its colour image " + color + " is 16x12");
+  temp.put("camera.yaml", camera_yaml + "vignette: v.png\n");
+  const std::string vignette =
+      temp.put("v.png", test::png_claiming(test::encoded(".png", cv::Mat1b(12, 16, uchar{200})), 9000, 9000));
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }), vignette + wrong);
+  temp.put("camera.yaml", camera_yaml + "vignette: /dev/zero\n");
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }), "/dev/zero: is not a regular file");
+}
+
+TEST(SequenceOpen, LimitsThePixelsOfAnImage) {
+  const TempFolder temp;
+  put_tum(temp);
+  SequenceOptions options;
+  options.max_image_pixels = 16 * 12 - 1;
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path(), options); }),
+            temp / "camera.yaml" + ": is 16x12, over the limit of 191 pixels (--max-image-pixels)");
+  options.max_image_pixels = 16 * 12;
+  EXPECT_EQ(Sequence::open(temp.path(), options).color(1).size(), cv::Size(16, 12));
+  options.max_image_pixels = 0;
+  EXPECT_THAT(error_of([&] { Sequence::open(temp.path(), options); }), HasSubstr("--max-image-pixels"));
+}
+
+TEST(SequenceOpen, RefusesPosesInASurveysFrame) {
+  const TempFolder temp;
+  put_tum(temp);
+  std::string truth;
+  for (int k = 0; k < 3; ++k) {
+    truth += "10." + std::to_string(k) + "00 " + std::to_string(500000 + k) + " 5400000 310 0 0 0 1\n";
+  }
+  temp.put("groundtruth.txt", truth);
+  EXPECT_THAT(error_of([&] { Sequence::open(temp.path()); }),
+              testing::AllOf(HasSubstr("is too far from the origin: around 500001 5400000 310"),
+                             HasSubstr("an origin such as 500000 5400000 0 off the poses"), HasSubstr("--origin")));
 }
 
 TEST(SequenceTum, IsReadByManyThreadsAtOnce) {
