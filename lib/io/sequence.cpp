@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -103,6 +104,22 @@ struct Sequence::Data {
     require_camera_size(files.depth, size);
   }
 
+  /// One image that is damaged or of another size is that frame's fault; if none of the first has the camera's size,
+  /// it is the camera's.
+  void require_size_of_images() const {
+    constexpr std::size_t most = 32;  // that are looked at
+    std::optional<InputError> first_fault;
+    for (std::size_t i = 0; i < std::min(most, index.frames.size()); ++i) {
+      const std::string& file = index.frames[i].color;
+      try {
+        return require_camera_size(file, read_image_size(file));
+      } catch (const InputError& e) {
+        if (!first_fault) first_fault = e;
+      }
+    }
+    if (first_fault) throw *first_fault;
+  }
+
   void read_photometric_calibration(const std::string& path) {
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) {
@@ -156,7 +173,7 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
   if (index.video) {
     data->require_camera_size(path, index.video->frame_size());
   } else {
-    data->require_camera_size(index.frames.front().color, read_image_size(index.frames.front().color));
+    data->require_size_of_images();
   }
   // Last: only now is the size that the camera file promises known to be true.
   data->undistorter = Undistorter(index.camera.camera, index.camera.distortion);
