@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -113,6 +114,23 @@ struct Sequence::Data {
     require_camera_size(files.depth, size);
   }
 
+  /// One image that is damaged or of another size is that frame's fault; if none of the first has the camera's size,
+  /// it is the camera's.
+  void require_size_of_images() const {
+    constexpr std::size_t most = 32;  // that are looked at
+    std::optional<InputError> first_fault;
+    for (std::size_t i = 0; i < std::min(most, index.frames.size()); ++i) {
+      const std::string& file = index.frames[i].color;
+      try {
+        read_image_size(file, camera_size_only(file));
+        return;
+      } catch (const InputError& e) {
+        if (!first_fault) first_fault = e;
+      }
+    }
+    if (first_fault) throw *first_fault;
+  }
+
   void read_photometric_calibration(const std::string& path) {
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) {
@@ -179,8 +197,7 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
   if (index.video) {
     data->require_camera_size(path, index.video->frame_size());
   } else {
-    const std::string& first = index.frames.front().color;
-    read_image_size(first, data->camera_size_only(first));
+    data->require_size_of_images();
   }
   // Interpolation and gradients need a neighbor.
   if (const cv::Size size = data->camera_size(); size.width < smallest_side || size.height < smallest_side) {

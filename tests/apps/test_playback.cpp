@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 class PlaybackTest : public testing::Test {
  protected:
-  PlaybackTest() { apps_test::write_tiny_sequence(scratch_ / "seq", 4); }
+  PlaybackTest() { apps_test::write_tiny_sequence(scratch_ / "seq", 24); }
 
   /// The images with these stamps.
   Sequence sequence(const std::vector<std::string>& stamps) const {
