@@ -2,12 +2,14 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/io/transforms_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/io/natural_order.hpp"
 #include "odosplat/io/text_words.hpp"
 #include "odosplat/io/trajectory_file.hpp"
 
@@ -123,7 +125,27 @@ TransformsFrame read_frame(const Reader& reader, const Json& json) {
   const std::optional<SE3> T_world_gl = pose_from_rows(reader.matrix(json, "transform_matrix"));
   if (!T_world_gl) reader.fail("transform_matrix", "the matrix is no rotation");
   frame.T_world_camera = turned(*T_world_gl);
+  frame.time = reader.number(json, "timestamp");
   return frame;
+}
+
+void sort_frames(const std::string& name, std::vector<TransformsFrame>& frames) {
+  const bool timed = frames.front().time.has_value();
+  for (const TransformsFrame& frame : frames) {
+    if (frame.time.has_value() != timed) {
+      throw InputError(
+          name, "timestamp",
+          "is given for some of the frames only: " + frames.front().color + " and " + frame.color + " differ");
+    }
+  }
+  std::stable_sort(frames.begin(), frames.end(), [&](const TransformsFrame& a, const TransformsFrame& b) {
+    return timed ? *a.time < *b.time : natural_less(a.color, b.color);
+  });
+  for (std::size_t i = 1; timed && i < frames.size(); ++i) {
+    if (*frames[i].time == *frames[i - 1].time) {
+      throw InputError(name, "timestamp", "is the same for " + frames[i - 1].color + " and " + frames[i].color);
+    }
+  }
 }
 
 }  // namespace
@@ -182,6 +204,7 @@ TransformsFile parse_transforms(const std::string& name, const std::string& text
     }
   }
   if (file.frames.empty()) reader.fail("frames", "lists no image");
+  sort_frames(name, file.frames);
   return file;
 }
 

@@ -38,12 +38,13 @@ struct TransformsFrame {
   std::string color;  // as written, relative to the file's folder
   std::string depth;  // the same; empty: none
   SE3 T_world_camera;
+  std::optional<double> time;  // [s] timestamp
 };
 
 /// A transforms.json as nerfstudio and instant-ngp use it.
 struct TransformsFile {
   TransformsCamera camera;              // of every frame
-  std::vector<TransformsFrame> frames;  // as listed
+  std::vector<TransformsFrame> frames;  // in order of time, else in the natural order of `color`
   double depth_scale = 1000.0;          // units of a depth image a metre (of the poses)
   std::string points;                   // ply_file_path, relative to the file's folder; empty: none
 };
@@ -53,9 +54,12 @@ struct TransformsFile {
 /// points of ply_file_path are as well: applied_transform, which says how that world came from an older one, is held to
 /// be a matrix of numbers and not undone. Intrinsics of a frame count before those of the file, key by key.
 /// depth_unit_scale_factor is metres a unit of the depth images (0.001 if not said).
+/// Files list their frames in any order (COLMAP's, shuffled): they are returned in the order in which they were taken,
+/// by `timestamp` (seconds) if the frames have it, else by the natural order of their names. D-NeRF's `time`, a phase
+/// in 0..1, is no stamp and not looked at.
 /// InputError(file, key or "frame N", fault): no JSON, a key missing or of another kind, no rotation, a camera model
-/// that is not pinhole with radial and tangential distortion, frames of different cameras, names with control
-/// characters.
+/// that is not pinhole with radial and tangential distortion, frames of different cameras, a timestamp in some of the
+/// frames only or twice the same, names with control characters.
 TransformsFile parse_transforms(const std::string& name, const std::string& text);
 
 }  // namespace odosplat

