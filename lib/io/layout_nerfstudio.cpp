@@ -71,6 +71,10 @@ SequenceIndex index_nerfstudio(const std::string& path, const SequenceOptions& o
   camera.depth_scale = transforms.depth_scale;
   choose_camera(options, {folder}, camera, file, camera.depth_scale, index);
   fill_numbered(files, index);
+  for (std::size_t i = 0; i < transforms.frames.size(); ++i) {
+    const std::optional<double>& time = transforms.frames[i].time;
+    if (time) index.frames[i].time = index.truth[i].time = *time;
+  }
   if (!transforms.points.empty()) {
     const std::string points = fs::path(listed_file(folder, transforms.points)).lexically_normal().string();
     if (file_exists(points)) index.sparse_points = {points, read_point_cloud};

@@ -11,6 +11,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/common_camera.hpp"
 #include "odosplat/io/json_text.hpp"
+#include "odosplat/io/natural_order.hpp"
 #include "odosplat/io/text_words.hpp"
 #include "odosplat/io/trajectory_file.hpp"
 
@@ -122,6 +123,7 @@ TransformsFrame read_frame(const Reader& reader, const Json& json) {
   frame.color = reader.path(json, "file_path");
   if (frame.color.empty()) reader.fail("file_path", "is missing");
   frame.depth = reader.path(json, "depth_file_path");
+  frame.time = reader.number(json, "timestamp");
   if (!json.contains("transform_matrix") || json["transform_matrix"].is_null()) return frame;
   const std::vector<double> rows = reader.matrix(json, "transform_matrix");
   if (std::any_of(rows.begin(), rows.end(), [](double value) { return std::isnan(value); })) return frame;
@@ -129,6 +131,25 @@ TransformsFrame read_frame(const Reader& reader, const Json& json) {
   if (!T_world_gl) reader.fail("transform_matrix", "the matrix is no rotation");
   frame.T_world_camera = turned(*T_world_gl);
   return frame;
+}
+
+void sort_frames(const std::string& name, std::vector<TransformsFrame>& frames) {
+  const bool timed = frames.front().time.has_value();
+  for (const TransformsFrame& frame : frames) {
+    if (frame.time.has_value() != timed) {
+      throw InputError(
+          name, "timestamp",
+          "is given for some of the frames only: " + frames.front().color + " and " + frame.color + " differ");
+    }
+  }
+  std::stable_sort(frames.begin(), frames.end(), [&](const TransformsFrame& a, const TransformsFrame& b) {
+    return timed ? *a.time < *b.time : natural_less(a.color, b.color);
+  });
+  for (std::size_t i = 1; timed && i < frames.size(); ++i) {
+    if (*frames[i].time == *frames[i - 1].time) {
+      throw InputError(name, "timestamp", "is the same for " + frames[i - 1].color + " and " + frames[i].color);
+    }
+  }
 }
 
 }  // namespace
@@ -194,6 +215,7 @@ TransformsFile parse_transforms(const std::string& name, const std::string& text
   if (std::none_of(file.frames.begin(), file.frames.end(), [](const auto& frame) { return frame.T_world_camera; })) {
     reader.fail("frame 1: transform_matrix", "is missing or not finite, as in every frame");
   }
+  sort_frames(name, file.frames);
   return file;
 }
 

