@@ -71,9 +71,13 @@ SequenceIndex index_nerfstudio(const std::string& path, const SequenceOptions& o
   camera.depth_scale = transforms.depth_scale;
   choose_camera(options, {folder}, camera, file, camera.depth_scale, index);
   fill_numbered(files, index);
+  std::size_t posed = 0;  // frames without a pose are not in the truth
   for (std::size_t i = 0; i < transforms.frames.size(); ++i) {
-    const std::optional<double>& time = transforms.frames[i].time;
-    if (time) index.frames[i].time = index.truth[i].time = *time;
+    const TransformsFrame& frame = transforms.frames[i];
+    if (frame.time) index.frames[i].time = *frame.time;
+    if (!frame.T_world_camera) continue;
+    if (frame.time) index.truth[posed].time = *frame.time;
+    ++posed;
   }
   if (!transforms.points.empty()) {
     const std::string points = fs::path(listed_file(folder, transforms.points)).lexically_normal().string();

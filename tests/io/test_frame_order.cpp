@@ -206,6 +206,21 @@ TEST(FrameOrder, NerfstudioWithStamps) {
   EXPECT_NEAR(s.time(0), 1000.15, 1e-9);
   EXPECT_NEAR(s.truth().back().time, 1000.249, 1e-9);
 
+  // A frame without a pose takes no place among the poses.
+  json holed = file;
+  for (json& frame : holed["frames"]) {
+    if (std::abs(frame["timestamp"].get<double>() - 1000.15) < 1e-9) frame.erase("transform_matrix");
+  }
+  put_transforms(temp, holed);
+  const Sequence with_hole = Sequence::open(temp.path());
+  EXPECT_EQ(with_hole.size(), s.size());
+  ASSERT_EQ(with_hole.truth().size(), s.truth().size() - 1);
+  EXPECT_NEAR(with_hole.time(0), 1000.15, 1e-9);
+  for (std::size_t i = 0; i < with_hole.truth().size(); ++i) {
+    EXPECT_EQ(with_hole.truth()[i].time, s.truth()[i + 1].time);
+    EXPECT_EQ(with_hole.truth()[i].T_world_camera.translation(), s.truth()[i + 1].T_world_camera.translation());
+  }
+
   json fault = file;
   fault["frames"][2].erase("timestamp");
   put_transforms(temp, fault);
