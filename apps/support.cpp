@@ -42,7 +42,7 @@ extern "C" void on_interrupt(int signal) {
 
 /// Ends what has not ended by itself: reading a large file or drawing a figure knows nothing of signals.
 void end_when_interrupted() {
-  constexpr auto patience = std::chrono::milliseconds(700);
+  constexpr auto patience = std::chrono::milliseconds(500);
   constexpr auto step = std::chrono::milliseconds(20);
   while (sem_wait(&interrupt_came) != 0 && errno == EINTR) {
   }

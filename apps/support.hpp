@@ -25,7 +25,7 @@ compute::Context open_device(const Common& common);
 void print_profile(const Common& common, const compute::Context& context);
 
 /// Ctrl-C, SIGTERM and the end of the terminal (SIGHUP, unless it is ignored as under nohup) set a flag; long loops ask
-/// it. Outputs appear whole or not at all, so whatever has not ended 0.7 s later is ended here, with status 130, unless
+/// it. Outputs appear whole or not at all, so whatever has not ended 0.5 s later is ended here, with status 130, unless
 /// a SavesWhenInterrupted lives. A second Ctrl-C or SIGTERM ends the process at once.
 void catch_interrupts();
 bool interrupted();

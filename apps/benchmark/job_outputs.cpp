@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "foreign_text.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
@@ -33,9 +34,7 @@ bool is_there(const std::string& file) {
   return fs::exists(fs::symlink_status(file, error));
 }
 
-}  // namespace
-
-std::string output_fault(const Job& job) {
+std::string first_fault(const Job& job) {
   for (const std::string& file : job.outputs) {
     if (!is_there(file)) return file + " is missing";
     if (std::string fault = fault_of(file); !fault.empty()) return fault;
@@ -45,6 +44,13 @@ std::string output_fault(const Job& job) {
     if (std::string fault = fault_of(file); !fault.empty()) return fault;
   }
   return "";
+}
+
+}  // namespace
+
+std::string output_fault(const Job& job) {
+  constexpr std::size_t longest = 500;  // the path included
+  return clean_text(first_fault(job), longest);
 }
 
 }  // namespace odosplat::apps

@@ -182,5 +182,22 @@ TEST_F(BenchmarkPlan, AMissingRecordingIsNamed) {
   }
 }
 
+TEST_F(BenchmarkPlan, PathsNeedNotBeUtf8) {
+  const std::filesystem::path data = folder / "caf\xe9";
+  std::filesystem::create_directory(data);
+  for (const char* name : {"k1", "k2", "h1", "hall.ply"}) std::filesystem::rename(folder / name, data / name);
+  std::filesystem::rename(folder / "suite.yaml", data / "suite.yaml");
+  options.suite = (data / "suite.yaml").string();
+  options.root = data.string();
+  options.out = (data / "out").string();
+  const Plan plan = make_plan(options);
+  write_plan(plan);
+  const Plan again = read_plan(options.out);
+  EXPECT_EQ(again.options.suite, options.suite);
+  EXPECT_EQ(again.options.root, options.root);
+  ASSERT_EQ(again.jobs.size(), plan.jobs.size());
+  EXPECT_EQ(fingerprints(again.jobs), fingerprints(plan.jobs));
+}
+
 }  // namespace
 }  // namespace odosplat::apps
