@@ -2,7 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace odosplat {
