@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "benchmark/checksum.hpp"
-#include "json_text.hpp"
+#include "check_report.hpp"
+#include "cloud_files.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/progress.hpp"
 #include "odosplat/eval/convention_check.hpp"
 #include "odosplat/eval/texture.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -19,24 +21,63 @@
 namespace odosplat::apps {
 namespace {
 
-// Frames with depth, and the poses that the files have for them.
-struct DepthFrames {
-  std::vector<std::size_t> frames;
-  ConventionInput input;
+struct CheckFlags {
+  SequenceFlags sequence;
+  ConventionOptions conventions;
+  std::string cloud;
+  double voxel = 0.0;
+  std::string json;
 };
 
-DepthFrames depth_frames(const Sequence& sequence) {
-  DepthFrames found;
+std::vector<std::size_t> frames_with_depth(const Sequence& sequence) {
+  std::vector<std::size_t> frames;
   for (std::size_t i = 0; i < sequence.size(); ++i) {
-    if (!sequence.has_depth(i)) continue;
-    found.frames.push_back(i);
-    found.input.T_world_camera.push_back(sequence.T_world_depth(i));
+    if (sequence.has_depth(i)) frames.push_back(i);
   }
-  if (found.frames.empty()) throw InputError(sequence.name(), "has no depth: nothing to check the conventions by");
-  found.input.camera = sequence.camera();
-  found.input.fy_sign = sequence.fy_sign();
-  found.input.depth_scale = sequence.depth_scale();
-  return found;
+  return frames;
+}
+
+ConventionReport check_depth(const Sequence& sequence, const std::vector<std::size_t>& frames,
+                             const ConventionOptions& options) {
+  ConventionInput input;
+  input.camera = sequence.camera();
+  input.fy_sign = sequence.fy_sign();
+  input.depth_scale = sequence.depth_scale();
+  for (const std::size_t i : frames) input.T_world_camera.push_back(sequence.T_world_depth(i));
+  input.depth = [&](std::size_t k) {
+    if (interrupted()) throw Interrupted();
+    return sequence.depth(frames[k]);
+  };
+  return check_conventions(input, options);
+}
+
+RegistrationReport check_edges(const Sequence& sequence, const std::vector<std::size_t>& frames) {
+  RegistrationInput input;
+  input.camera = sequence.camera();
+  input.images = frames.size();
+  input.gray = [&](std::size_t k) {
+    if (interrupted()) throw Interrupted();
+    return sequence.gray(frames[k]);
+  };
+  input.depth = [&](std::size_t k) { return sequence.depth(frames[k]); };
+  return check_registration(input);
+}
+
+CloudCheckReport check_with_cloud(const Sequence& sequence, const CheckFlags& flags) {
+  CloudCheckInput input;
+  input.camera = sequence.camera();
+  input.fy_sign = sequence.fy_sign();
+  for (std::size_t i = 0; i < sequence.size(); ++i) input.T_world_camera.push_back(sequence.T_world_camera(i));
+  input.gray = [&](std::size_t i) {
+    if (interrupted()) throw Interrupted();
+    return sequence.gray(i);
+  };
+  input.cloud = read_cloud(flags.cloud, flags.voxel, false);
+  Progress progress("check", 100);
+  input.progress = [&](double share) { progress.update(std::lround(100.0 * share)); };
+  const CloudCheckReport report = check_cloud(input);
+  progress.finish();
+  return report;
 }
 
 /// Of up to 100 images, evenly over the sequence, brought to the size at which shares are compared.
@@ -60,7 +101,7 @@ std::string checksum_of(const Sequence& sequence) {
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     if (interrupted()) throw Interrupted();
     for (const std::string& file : {sequence.color_file(i), sequence.depth_file(i)}) {
-      if (!file.empty()) sum.add(read_file(file));
+      if (!file.empty()) sum.add(read_file(file, max_data_bytes));
     }
   }
   for (const StampedPose& pose : sequence.truth()) {
@@ -74,58 +115,81 @@ std::string checksum_of(const Sequence& sequence) {
   return sum.text();
 }
 
-void write_json(const std::string& file, const Sequence& sequence, const ConventionReport& report,
-                const TextureSummary& texture) {
-  const nlohmann::ordered_json json{{"name", sequence.name()},
-                                    {"layout", sequence.layout()},
-                                    {"frames", sequence.size()},
-                                    {"pairs", report.pairs},
-                                    {"verdict", report.verdict},
-                                    {"texture_share", texture.share},
-                                    {"texture_bare_blocks", texture.bare_blocks},
-                                    {"checksum", checksum_of(sequence)}};
-  write_file_atomically(file, json_text(json));
-}
-
-void run(SequenceFlags flags, const ConventionOptions& options, const std::string& json) {
-  if (!json.empty()) ensure_output_file(json);
-  flags.options.as_stored = true;
-  const Sequence sequence = open_sequence(flags);
-  DepthFrames frames = depth_frames(sequence);
-  frames.input.depth = [&](std::size_t k) {
-    if (interrupted()) throw Interrupted();
-    return sequence.depth(frames.frames[k]);
-  };
-  const ConventionReport report = check_conventions(frames.input, options);
-  std::printf("%s: layout %s, %zu images, %zu with depth, %dx%d\n", sequence.name().c_str(), sequence.layout().c_str(),
-              sequence.size(), frames.frames.size(), sequence.camera().width, sequence.camera().height);
+void print_depth(const Sequence& sequence, const ConventionReport& report, const RegistrationReport& registration) {
   const std::string gap =
       std::to_string(report.gap) + (report.max_gap > report.gap ? " to " + std::to_string(report.max_gap) : "");
-  std::printf("depth of one image reprojected into another %s frames on, %d pairs\n", gap.c_str(), report.pairs);
+  std::printf("depth of one image reprojected into another %s frames on, %d pairs%s\n", gap.c_str(), report.pairs,
+              report.gap_reduced ? " (too little overlaps farther apart)" : "");
   std::printf("%s", convention_table(report, sequence.camera()).c_str());
   std::printf("%s\n", report.verdict.c_str());
-  const TextureSummary texture = texture_of(sequence);
+  std::printf("%s\n", registration.text.c_str());
+}
+
+void print_cloud(const Sequence& sequence, const CloudCheckReport& report) {
+  std::printf(
+      "patches of one image carried by the cloud into another %d frames on, %d pairs; 0: alike, 1: no relation\n",
+      report.gap, report.pairs);
+  std::printf("%s", cloud_table(report, sequence.camera()).c_str());
+  if (report.fit) {
+    const CloudFit& fit = *report.fit;
+    std::printf(
+        "measured by %d patches: cloud %.4f +- %.4f times too large, off by %.3f +- %.3f m, turned by %.2f +- %.2f "
+        "deg, fx %.1f +- %.1f px; patches lie %.2f px aside as declared, %.2f px with all of these\n",
+        fit.patches, 1.0 / fit.scale.value, fit.scale.sigma / (fit.scale.value * fit.scale.value), fit.offset_m.value,
+        fit.offset_m.sigma, fit.turn_deg.value, fit.turn_deg.sigma, fit.focal_px.value, fit.focal_px.sigma,
+        fit.error_before_px, fit.error_after_px);
+  }
+  std::printf("%s\n", report.verdict.c_str());
+}
+
+void run(CheckFlags flags) {
+  if (!flags.json.empty()) ensure_output_file(flags.json);
+  flags.sequence.options.as_stored = true;
+  const Sequence sequence = open_sequence(flags.sequence);
+  const std::vector<std::size_t> frames = frames_with_depth(sequence);
+  if (frames.empty() && flags.cloud.empty()) {
+    throw InputError(sequence.name(), "has no depth: nothing to check the conventions by; a cloud will do (--cloud)");
+  }
+  std::printf("%s: layout %s, %zu images, %zu with depth, %dx%d\n", sequence.name().c_str(), sequence.layout().c_str(),
+              sequence.size(), frames.size(), sequence.camera().width, sequence.camera().height);
+  CheckResults results;
+  if (!frames.empty()) {
+    results.conventions = check_depth(sequence, frames, flags.conventions);
+    results.registration = check_edges(sequence, frames);
+    print_depth(sequence, *results.conventions, *results.registration);
+  }
+  if (!flags.cloud.empty()) {
+    results.cloud = check_with_cloud(sequence, flags);
+    print_cloud(sequence, *results.cloud);
+  }
+  results.texture = texture_of(sequence);
+  const TextureSummary& texture = results.texture;
   std::printf(
       "texture at 320x240: %.1f %% of pixels with a gradient over 8; blocks of 32x32: tenth %.1f, median %.1f, "
       "ninth tenth %.1f %%, %.1f %% of them bare (%d images)\n",
       100.0 * texture.share, 100.0 * texture.block_p10, 100.0 * texture.block_p50, 100.0 * texture.block_p90,
       100.0 * texture.bare_blocks, texture.images);
-  if (!json.empty()) write_json(json, sequence, report, texture);
+  if (!flags.json.empty()) {
+    write_file_atomically(flags.json, check_json(sequence, results, checksum_of(sequence)));
+  }
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, Common& common) {
-  CLI::App* command = add_command(
-      app, common, "check", "prove by reprojection which convention of fy, poses, numbering and depth scale holds");
-  auto flags = std::make_shared<SequenceFlags>();
-  auto options = std::make_shared<ConventionOptions>();
-  add_sequence_flags(command, *flags);
-  command->add_option("--gap", options->gap, "frames between the two images of a pair");
-  command->add_option("--pairs", options->pairs, "pairs of images");
-  auto json = std::make_shared<std::string>();
-  command->add_option("--json", *json, "file to write the verdict and a checksum of the sequence's data to");
-  command->final_callback([flags, options, json] { run(*flags, *options, *json); });
+  CLI::App* command =
+      add_command(app, common, "check", "prove by the images what fy, poses, numbering, depth scale and cloud mean");
+  auto flags = std::make_shared<CheckFlags>();
+  add_sequence_flags(command, flags->sequence);
+  CLI::Option* cloud = command->add_option(
+      "--cloud", flags->cloud,
+      std::string(cloud_formats) + ": checks images, poses and cloud against one another, no depth needed");
+  command->add_option("--voxel", flags->voxel, "thin the cloud while it is read: edge of a voxel [m], 0: not")
+      ->needs(cloud);
+  command->add_option("--gap", flags->conventions.gap, "frames between the two images of a pair with depth");
+  command->add_option("--pairs", flags->conventions.pairs, "pairs of images with depth");
+  command->add_option("--json", flags->json, "file to write verdict, findings and a checksum of the data to");
+  command->final_callback([flags] { run(*flags); });
 }
 
 }  // namespace odosplat::apps

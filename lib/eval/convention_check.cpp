@@ -14,6 +14,7 @@ namespace odosplat {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double enough_overlap = 0.5;  // of a pair's pixels, for a misfit to mean something
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 struct Pair {
@@ -33,12 +34,6 @@ struct PairError {
   double overlap = 0.0;
 };
 
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // F T F with F = diag(1, -1, 1): the motion of the mirrored world.
 SE3 reflect(const SE3& T) {
   const Eigen::Quaterniond& q = T.rotation();
@@ -52,7 +47,7 @@ std::vector<Convention> all_conventions(const Convention& declared, const Conven
     if (std::find(scales.begin(), scales.end(), scale) == scales.end()) scales.push_back(scale);
   }
   std::vector<Convention> all;
-  for (const int sign : {1, -1}) {
+  for (const int sign : {declared.fy_sign, -declared.fy_sign}) {
     for (const bool inverted : {false, true}) {
       for (const int shift : {0, -1, 1}) {
         for (const double scale : scales) all.push_back({sign, inverted, shift, scale});
@@ -141,9 +136,18 @@ PairError reproject(const ConventionInput& input, const Pair& pair, const std::v
   }
   error.overlap = static_cast<double>(relative.size()) / static_cast<double>(samples.size());
   if (relative.empty() || error.overlap < min_overlap) return error;
-  error.absolute = median_of(absolute);
-  error.relative = median_of(relative);
+  error.absolute = median_of(std::move(absolute));
+  error.relative = median_of(std::move(relative));
   return error;
+}
+
+// Of the rows that have enough of it to be measured; 0: none has.
+double most_overlap(const std::vector<ConventionRow>& rows) {
+  double most = 0.0;
+  for (const ConventionRow& row : rows) {
+    if (std::isfinite(row.relative_error)) most = std::max(most, row.overlap);
+  }
+  return most;
 }
 
 DepthImage load(const ConventionInput& input, std::size_t image) {
@@ -185,8 +189,8 @@ std::vector<ConventionRow> measure(const ConventionInput& input, const std::vect
     }
     row.tried = 2 * tried >= pairs.size();
     const bool enough = !relative.empty() && 2 * relative.size() >= pairs.size();
-    row.error_m = enough ? median_of(absolute) : infinity;
-    row.relative_error = enough ? median_of(relative) : infinity;
+    row.error_m = enough ? median_of(std::move(absolute)) : infinity;
+    row.relative_error = enough ? median_of(std::move(relative)) : infinity;
     rows.push_back(std::move(row));
   }
   return rows;
@@ -218,20 +222,27 @@ ConventionReport check_conventions(const ConventionInput& input, const Conventio
   report.declared = {input.fy_sign, false, 0, input.depth_scale};
   const std::vector<Convention> conventions = all_conventions(report.declared, options);
   const int images = static_cast<int>(input.T_world_camera.size());
+  // Ends at the first gap that says something: a row can be believed, or images overlap and yet no row fits. At less
+  // motion much fits that is wrong. Of the others the one with most overlap is kept.
   const auto try_gaps = [&](bool under_every_shift) {
-    for (Gaps gaps = first_gaps(images, options.gap); gaps.min >= 1; gaps = {gaps.min / 2, gaps.max / 2}) {
+    const Gaps first = first_gaps(images, options.gap);
+    for (Gaps gaps = first; gaps.min >= 1; gaps = {gaps.min / 2, gaps.max / 2}) {
       const std::vector<Pair> pairs = choose_pairs(input, gaps, options.pairs, under_every_shift);
       if (pairs.empty()) continue;
-      report.gap = gaps.min;
-      report.max_gap = gaps.max;
-      report.pairs = static_cast<int>(pairs.size());
-      report.rows = measure(input, conventions, pairs, options);
-      if (std::any_of(report.rows.begin(), report.rows.end(),
-                      [](const ConventionRow& row) { return std::isfinite(row.relative_error); })) {
-        return true;
-      }
+      ConventionReport tried = report;
+      tried.gap = gaps.min;
+      tried.max_gap = gaps.max;
+      tried.gap_reduced = gaps.min < first.min;
+      tried.pairs = static_cast<int>(pairs.size());
+      tried.rows = measure(input, conventions, pairs, options);
+      const bool believable = std::any_of(tried.rows.begin(), tried.rows.end(), [&](const ConventionRow& row) {
+        return row.relative_error <= options.max_error;
+      });
+      const bool enough = tried.rows.front().overlap >= enough_overlap;  // the declared convention is tried first
+      if (believable || enough || most_overlap(tried.rows) > most_overlap(report.rows)) report = std::move(tried);
+      if (believable || (enough && most_overlap(report.rows) > 0.0)) return true;
     }
-    return false;
+    return !report.rows.empty();
   };
   if (!try_gaps(true) && !try_gaps(false)) {
     throw InputError("sequence", "no two images see the same surfaces under any convention: nothing to judge by");

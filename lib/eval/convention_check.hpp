@@ -10,6 +10,7 @@
 
 #include "odosplat/core/camera.hpp"
 #include "odosplat/core/image.hpp"
+#include "odosplat/core/pair_scores.hpp"
 #include "odosplat/core/se3.hpp"
 
 namespace odosplat {
@@ -50,13 +51,11 @@ struct Convention {
 };
 
 /// A row of the table: how well the images agree under a convention.
-struct ConventionRow {
+/// Its relative errors are medians of |difference| / depth.
+struct ConventionRow : PairScores {
   Convention convention;
-  double error_m = 0.0;             // [m] median over pairs of the pair's median |difference|, in the row's own metres
-  double relative_error = 0.0;      // the same of |difference| / depth; infinite if too few pairs overlap
-  double overlap = 0.0;             // mean share of pixels that land on depth
-  bool tried = false;               // there are poses for at least half the pairs
-  std::vector<double> pair_errors;  // relative, one a pair; NaN where the pair does not overlap or has no pose
+  double error_m = 0.0;  // [m] median over pairs of the pair's median |difference|, in the row's own metres
+  double overlap = 0.0;  // mean share of pixels that land on depth
 };
 
 /// What is said of one part of the convention.
@@ -75,6 +74,7 @@ struct ConventionReport {
   int gap = 0;                              // [frames] that was used: the smallest ...
   int max_gap = 0;                          // ... and the largest
   int pairs = 0;                            // that were used
+  bool gap_reduced = false;                 // at the gap that was asked for nothing fitted
   bool believable = false;                  // the best error is below max_error
   bool as_declared = false;                 // believable, and no part is found to differ
   std::vector<ConventionFinding> findings;  // one a part
@@ -87,17 +87,17 @@ struct ConventionReport {
 /// poses, F T F with F = diag(1, -1, 1), need no rows of their own: with fy > 0 they are the stored poses with fy < 0.
 /// Rows are judged by the error relative to depth: a scale that makes everything small would win in metres.
 ///
-/// A row beats another if, over the pairs that both have, it errs three times less, or 5 % less and less on so many
-/// single pairs that chance is ruled out (2.6 standard deviations of a coin, so on 7 pairs at least). Among the rows
-/// that the best row does not beat, the one most like the declared convention is the winner: data that cannot tell do
-/// not accuse. A part of the winner is called decided if the winner beats every row that differs from it in this part
-/// and in at most one other; three mistakes at once that fit by chance are not considered. A row that could not be
-/// tried, because the poses it needs are not there, is not beaten.
+/// A row beats another as beats() says. Among the rows that the best row does not beat, the one most like the declared
+/// convention is the winner: data that cannot tell do not accuse. A part of the winner is called decided if the winner
+/// beats every row that differs from it in this part and in at most one other; three mistakes at once that fit by
+/// chance are not considered. A row that could not be tried, because the poses it needs are not there, is not beaten.
 ///
 /// A sequence shorter than twice the gap is used in pairs of every gap from a third of its length up, so that few
-/// images say as much as they can. Pairs that can be tried under every shift are preferred, and gaps are halved while
-/// no row has enough overlap. Throws InputError if there are fewer than two images with pose, if sizes of depth and
-/// camera differ, or if nothing overlaps at any gap.
+/// images say as much as they can. Pairs that can be tried under every shift are preferred. Gaps are halved while no
+/// row is believable and less than half of the pixels overlap as declared: where a camera moves so fast, wrong rows
+/// overlap as well as the right one and none fits. The report is of the gap at which most overlaps if none fits at any.
+/// Throws InputError if there are fewer than two images with pose, if sizes of depth and camera differ, or if nothing
+/// overlaps at any gap.
 ConventionReport check_conventions(const ConventionInput& input, const ConventionOptions& options = {});
 
 /// "+480.0 as stored shift 0 scale 1000": the parts of a convention, for messages.

@@ -7,14 +7,8 @@
 #include <cstdio>
 #include <iterator>
 
-#include "odosplat/eval/statistics.hpp"
-
 namespace odosplat {
 namespace {
-
-constexpr double clear_ratio = 3.0;
-constexpr double least_ratio = 1.05;
-constexpr double deviations = 2.6;
 
 std::string format(const char* pattern, double value) {
   char text[64];
@@ -77,27 +71,6 @@ std::string difference_text(const Part& part, const Convention& winner, const Co
 
 }  // namespace
 
-bool beats(const ConventionRow& a, const ConventionRow& b) {
-  if (!std::isfinite(a.relative_error) || !b.tried) return false;
-  if (!std::isfinite(b.relative_error)) return true;
-  std::vector<double> errors_a;
-  std::vector<double> errors_b;
-  int won = 0;
-  int lost = 0;
-  for (std::size_t i = 0; i < a.pair_errors.size(); ++i) {
-    if (std::isnan(a.pair_errors[i]) || std::isnan(b.pair_errors[i])) continue;
-    errors_a.push_back(a.pair_errors[i]);
-    errors_b.push_back(b.pair_errors[i]);
-    won += a.pair_errors[i] < b.pair_errors[i];
-    lost += a.pair_errors[i] > b.pair_errors[i];
-  }
-  if (errors_a.empty()) return b.relative_error >= clear_ratio * a.relative_error;
-  const double median_a = statistics(errors_a).median;
-  const double median_b = statistics(errors_b).median;
-  if (median_b >= clear_ratio * median_a) return won > lost;
-  return median_b >= least_ratio * median_a && won - lost >= deviations * std::sqrt(errors_a.size());
-}
-
 void judge_conventions(ConventionReport& report, const Camera& camera, double max_error) {
   const ConventionRow& best = report.rows.front();
   const ConventionRow* winner = &best;
@@ -135,7 +108,9 @@ void judge_conventions(ConventionReport& report, const Camera& camera, double ma
   report.as_declared = report.believable && report.winner == report.declared;
   if (!report.believable) {
     report.verdict = "no convention fits: the best errs by " + millimetres(winner->error_m) + ", " +
-                     format("%.1f %% of the depth", 100.0 * winner->relative_error);
+                     format("%.1f %% of the depth", 100.0 * winner->relative_error) +
+                     format(" (%.0f %% of the pixels overlap", 100.0 * winner->overlap) +
+                     format(" at a gap of %.0f frames)", report.gap);
   } else if (report.as_declared) {
     report.verdict = "the data agree with what is declared, to " + millimetres(winner->error_m) + open;
   } else {

@@ -6,9 +6,6 @@
 
 namespace odosplat {
 
-/// Whether row a is better than row b beyond chance: see check_conventions().
-bool beats(const ConventionRow& a, const ConventionRow& b);
-
 /// Fills winner, findings and verdict of a report whose rows are measured and sorted and whose declared convention is
 /// among them.
 void judge_conventions(ConventionReport& report, const Camera& camera, double max_error);

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "odosplat/io/image_file.hpp"
+#include "odosplat/io/trajectory_file.hpp"
 #include "run_program.hpp"
 #include "tiny_world.hpp"
 
@@ -219,6 +220,36 @@ TEST_F(Chain, CheckNamesTheFault) {
   write_text(sequence_ + "/camera.yaml",
              "width: 160\nheight: 120\nfx: 130\nfy: -130\ncx: 79.5\ncy: 59.5\ndepth_scale: 5000\n");
   EXPECT_THAT(must_run({"check", sequence_, "--gap", "10"}).out, HasSubstr("fy"));
+}
+
+TEST_F(Chain, ChecksWithACloudInPlaceOfDepth) {
+  const std::string report = scratch_ / "check.json";
+  must_run({"check", sequence_, "--cloud", cloud_, "--gap", "10", "--json", report});
+  auto json = nlohmann::json::parse(read_text(report));
+  EXPECT_EQ(json["depth_registered"], true) << json.dump(2);
+  EXPECT_EQ(json["poses_inverted"], false);
+  EXPECT_EQ(json["declared"]["fy"], 130.0);
+  EXPECT_NEAR(json["color_focal_px"].get<double>(), 130.0, 3.0);
+  EXPECT_TRUE(json["time_offset_s"].is_null());
+
+  fs::remove(sequence_ + "/depth.txt");
+  const RunResult without = run_odosplat({"check", sequence_});
+  EXPECT_EQ(without.status, 2);
+  EXPECT_THAT(without.err, HasSubstr("--cloud"));
+  // Poses the wrong way round, as many tools write them.
+  Trajectory truth = read_trajectory(sequence_ + "/groundtruth.txt");
+  for (StampedPose& pose : truth) pose.T_world_camera = pose.T_world_camera.inverse();
+  write_trajectory(sequence_ + "/groundtruth.txt", truth);
+  const RunResult inverted = must_run({"check", sequence_, "--cloud", cloud_, "--json", report});
+  EXPECT_THAT(inverted.out, HasSubstr("poses: the images want inverted, the files say as stored"));
+  json = nlohmann::json::parse(read_text(report));
+  EXPECT_EQ(json["poses_inverted"], true);
+  EXPECT_TRUE(json["depth_registered"].is_null());
+  const auto finding = std::find_if(json["findings"].begin(), json["findings"].end(),
+                                    [](const auto& f) { return f["part"] == "poses"; });
+  ASSERT_NE(finding, json["findings"].end());
+  EXPECT_EQ((*finding)["as_declared"], false);
+  EXPECT_THAT((*finding)["reason"].template get<std::string>(), HasSubstr("inverted"));
 }
 
 }  // namespace

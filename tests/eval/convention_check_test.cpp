@@ -241,6 +241,30 @@ TEST(CheckConventions, ShrinksTheGapUntilImagesOverlap) {
   EXPECT_TRUE(r.as_declared) << r.verdict;
 }
 
+TEST(CheckConventions, AGapWithoutOverlapIsNotTakenForAMisfit) {
+  // Fast enough that wrong conventions overlap by chance after 20 frames, and the right one does not.
+  const World fast = make_world(60, [](int i) {
+    return SE3(so3_exp(Eigen::Vector3d(0.02 * std::sin(0.3 * i), 0.1 * i, 0.0)),
+               Eigen::Vector3d(0.8 * std::sin(0.2 * i), 0.1 * std::cos(0.15 * i), 0.9 * std::sin(0.11 * i)));
+  });
+  const ConventionReport r = check_conventions(fast.input);
+  EXPECT_TRUE(r.gap_reduced);
+  EXPECT_LT(r.gap, 20);
+  EXPECT_TRUE(r.as_declared) << r.verdict;
+}
+
+TEST(CheckConventions, AMisfitIsNotHiddenBySmallerGaps) {
+  // A wrong focal length: little motion would hide it.
+  ConventionInput input = room().input;
+  input.camera.fx *= 1.4;
+  input.camera.fy *= 1.4;
+  ConventionOptions options;
+  options.max_error = 0.01;
+  const ConventionReport r = check_conventions(input, options);
+  EXPECT_FALSE(r.gap_reduced) << r.verdict;
+  EXPECT_FALSE(r.believable) << r.verdict;
+}
+
 TEST(CheckConventions, RefusesWhatCannotBeJudged) {
   ConventionInput input = room().input;
   input.T_world_camera.assign(60, std::nullopt);

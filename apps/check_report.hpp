@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "odosplat/eval/convention_check.hpp"
+#include "odosplat/eval/registration_check.hpp"
+#include "odosplat/eval/texture.hpp"
+#include "odosplat/io/sequence.hpp"
+#include "odosplat/map/cloud_check.hpp"
+
+namespace odosplat::apps {
+
+/// What `odosplat check` found out; none: not asked, or nothing to ask by.
+struct CheckResults {
+  std::optional<ConventionReport> conventions;     // by depth images
+  std::optional<RegistrationReport> registration;  // by depth images
+  std::optional<CloudCheckReport> cloud;
+  TextureSummary texture;
+};
+
+/// One line of all verdicts.
+std::string verdict_of(const CheckResults& results);
+
+/// The content of --json. checksum: of the sequence's data.
+std::string check_json(const Sequence& sequence, const CheckResults& results, const std::string& checksum);
+
+}  // namespace odosplat::apps

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "odosplat/core/camera.hpp"
+#include "odosplat/core/image.hpp"
+#include "odosplat/core/pair_scores.hpp"
+#include "odosplat/core/point_cloud.hpp"
+#include "odosplat/core/se3.hpp"
+#include "odosplat/map/cloud_fit.hpp"
+
+namespace odosplat {
+
+/// Posed images with what their files say about them, and a cloud of the place.
+struct CloudCheckInput {
+  Camera camera;    // fy > 0; its sign as declared is fy_sign
+  int fy_sign = 1;  // +1 or -1
+  // One an image, as the files have them: neither inverted nor reflected. None: the files have no pose for it.
+  std::vector<std::optional<SE3>> T_world_camera;
+  // Grey image of the camera's size; called from one thread, for a few images again and again.
+  std::function<GrayImage(std::size_t)> gray;
+  // Called now and then with the share of the work that is done; may be empty. The share falls if more has to be done
+  // than was foreseen.
+  std::function<void(double)> progress;
+  PointCloud cloud;  // [m] in the world that the poses are meant for once they are reflected for a negative fy
+};
+
+struct CloudCheckOptions {
+  int gap = 32;              // [frames] between the two images of a pair, less where images hardly overlap
+  int pairs = 16;            // pairs of images, spread evenly
+  int max_shift = 3;         // [frames] shifts of the ids that are tried, either way
+  int patches = 800;         // looked at a pair
+  double min_overlap = 0.2;  // share of them that must be seen in the other image
+  double max_error = 0.5;    // largest error of a reading that is believed
+  int most_points = 60000;   // of the cloud that are used; more are thinned
+  int largest_width = 400;   // [px] images are halved until they are no wider
+  // What is called wrong: the cloud's scale (less 1), an offset as a share of the median depth or a turn [rad] that
+  // moves things by as much, and the focal length as a share of it.
+  double least_scale = 0.01;
+  double least_offset = 0.015;
+  double least_focal = 0.02;
+  double sure = 4.0;  // standard deviations
+
+  void check() const;
+};
+
+/// One way to read the data.
+struct CloudReading {
+  int fy_sign = 1;
+  bool mirrored = false;  // the cloud's y must be negated, as the poses are for a negative fy
+  bool inverted = false;  // the stored poses are T_camera_world
+  int id_shift = 0;       // image k belongs to the pose stored for image k + id_shift
+  bool operator==(const CloudReading&) const = default;
+};
+
+/// A row of the table. Its errors are medians of 1 - normalised cross correlation: 0 where the images agree, about 1
+/// where they have nothing in common.
+struct CloudRow : PairScores {
+  CloudReading reading;
+  double overlap = 0.0;  // mean share of the patches that the other image shows
+};
+
+/// What is said of one part.
+struct CloudFinding {
+  std::string part;           // "fy", "cloud's y", "poses", "id shift", "cloud scale", "cloud offset",
+                              // "cloud rotation", "focal length"
+  std::optional<bool> right;  // as declared; none: the data do not tell
+  std::string text;           // one sentence; empty if right
+};
+
+struct CloudCheckReport {
+  std::vector<CloudRow> rows;  // best first
+  CloudReading declared;
+  CloudReading winner;
+  int gap = 0;
+  int pairs = 0;
+  bool believable = false;      // the winner's error is below max_error
+  bool textured = false;        // enough of the cloud's visible points lie on texture
+  bool as_declared = false;     // believable, and no part is found to differ
+  std::optional<CloudFit> fit;  // of scale, offset, rotation and focal length; if believable and measurable
+  std::vector<CloudFinding> findings;
+  std::string verdict;  // one line
+};
+
+/// Finds out without any depth image how posed images and a cloud belong together: patches around the cloud's visible
+/// points are carried from one image into another by the poses and compared there (normalised cross correlation, which
+/// no brightness or contrast changes). 2 signs of fy x cloud as it is or mirrored x poses as stored or inverted are
+/// tried, and shifts of the ids with the best of them and with what is declared. Rows are judged as by
+/// check_conventions(): what cannot be told apart is left as declared and called not decidable. Then scale, offset and
+/// rotation of the cloud and the focal length are fitted by least squares of where patches are found and where they
+/// should be, over gaps up to four times as long (fit_cloud()).
+///
+/// What does not show: a shift with a camera that moves steadily, scale and offset with one that only turns, anything
+/// with one that stands still or sees no texture. The report says so. Offsets along surfaces show only at other
+/// surfaces: a single wall leaves two directions open.
+///
+/// Throws InputError if there are fewer than two images with pose, if the cloud is empty, or if an image is not of the
+/// camera's size. Deterministic, whatever the number of threads.
+CloudCheckReport check_cloud(const CloudCheckInput& input, const CloudCheckOptions& options = {});
+
+/// "fy +480.0, poses as stored, id shift 0": the parts of a reading.
+std::string reading_text(const CloudReading& reading, const Camera& camera);
+
+/// The rows as aligned text, the winner marked *, the declared one d.
+std::string cloud_table(const CloudCheckReport& report, const Camera& camera, std::size_t max_rows = 12);
+
+}  // namespace odosplat
