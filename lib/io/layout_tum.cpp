@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
+#include "odosplat/core/stamp_guess.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/list_file.hpp"
@@ -46,6 +48,20 @@ std::map<long long, SE3> icl_poses(const std::string& folder) {
   return poses;
 }
 
+// Poses and images that never meet are mostly stamps in two units.
+void warn_if_unposed(const std::string& truth, const SequenceIndex& index) {
+  if (index.truth.empty()) return;
+  NamedStamps images{"the images", {}};
+  for (const FrameFiles& frame : index.frames) {
+    if (frame.T_world_camera) return;
+    images.times.push_back(frame.time);
+  }
+  NamedStamps poses{"the poses", {}};
+  for (const StampedPose& pose : index.truth) poses.times.push_back(pose.time);
+  log_warning(truth + ": none of its poses is of the time of an image; " +
+              guess_stamp_fault(images, poses, tum_depth_tolerance));
+}
+
 }  // namespace
 
 bool is_tum(const std::string& path) { return file_exists(join(path, "rgb.txt")); }
@@ -67,6 +83,7 @@ SequenceIndex index_tum(const std::string& path, const SequenceOptions& options)
     frame.T_world_camera = pose_at(index.truth, image.time);
     index.frames.push_back(std::move(frame));
   }
+  warn_if_unposed(truth, index);
   const std::string depth_list = join(path, "depth.txt");
   if (file_exists(depth_list)) {
     const std::vector<ListedImage> depths = parse_image_list(depth_list, read_file(depth_list));

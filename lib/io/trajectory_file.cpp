@@ -8,10 +8,13 @@
 #include <cmath>
 #include <cstdio>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/euroc_csv.hpp"
 
 namespace odosplat {
 namespace {
@@ -176,7 +179,11 @@ std::optional<SE3> pose_from_rows(const std::vector<double>& rows) {
   return SE3(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()), Eigen::Vector3d(M.col(3)));
 }
 
-Trajectory parse_trajectory(const std::string& name, const std::string& text) {
+PoseFile parse_pose_file(const std::string& name, const std::string& text) {
+  if (is_euroc_csv(text)) {
+    log_info(name + ": a table of EuRoC: its poses are of the body (the IMU)");
+    return {parse_euroc_csv(name, text), StampKind::times};
+  }
   const Lines lines(name, text);
   if (lines.all().empty()) throw InputError(name, "holds no pose");
   const std::size_t first = lines.all().front().values.size();
@@ -184,7 +191,13 @@ Trajectory parse_trajectory(const std::string& name, const std::string& text) {
   const bool rows = first == 4;
   Trajectory trajectory = log ? redwood_log(lines) : rows ? pose_in_three_rows(lines) : pose_a_line(lines);
   require_order(lines, log ? 5 : rows ? 3 : 1, trajectory);
-  return trajectory;
+  return {std::move(trajectory), log          ? StampKind::frame_numbers
+                                 : first == 8 ? StampKind::times
+                                              : StampKind::line_numbers};
+}
+
+Trajectory parse_trajectory(const std::string& name, const std::string& text) {
+  return parse_pose_file(name, text).poses;
 }
 
 SE3 parse_pose_matrix(const std::string& name, const std::string& text) {
@@ -197,10 +210,17 @@ SE3 parse_pose_matrix(const std::string& name, const std::string& text) {
 
 SE3 read_pose_matrix(const std::string& path) { return parse_pose_matrix(path, read_file(path)); }
 
+PoseFile read_pose_file(const std::string& path, const std::string& times_path) {
+  PoseFile file = parse_pose_file(path, read_file(path));
+  if (!times_path.empty()) {
+    set_times(times_path, file.poses);
+    file.stamps = StampKind::times;
+  }
+  return file;
+}
+
 Trajectory read_trajectory(const std::string& path, const std::string& times_path) {
-  Trajectory trajectory = parse_trajectory(path, read_file(path));
-  if (!times_path.empty()) set_times(times_path, trajectory);
-  return trajectory;
+  return read_pose_file(path, times_path).poses;
 }
 
 void write_trajectory(const std::string& path, const Trajectory& trajectory) {

@@ -13,6 +13,7 @@ namespace odosplat {
 /// Poses of a file, T_world_camera, in order of time. Two poses may have one stamp: public ground truth has such lines.
 /// The format is told by the number of values a line:
 ///   8   TUM: time tx ty tz qx qy qz qw (quaternions need not be of unit length)
+///   17, or 8 with times in whole nanoseconds   EuRoC's table, see euroc_csv.hpp; times become seconds
 ///   12  KITTI: the upper 3x4 of the matrix, row by row; the times are in `times_path`, one a line, or 0, 1, 2, ...
 ///   16  a whole 4x4 matrix a line (Replica), times as for 12
 ///   4   three rows of four a pose (ICL-NUIM gt.sim), times 0, 1, 2, ...
@@ -22,6 +23,21 @@ namespace odosplat {
 /// quaternion of length zero, a matrix that is no rotation, a time that goes back. A file without poses:
 /// InputError.
 Trajectory read_trajectory(const std::string& path, const std::string& times_path = "");
+/// What the times of a file's poses are.
+enum class StampKind {
+  times,          // as the file or a second file gives them
+  frame_numbers,  // of a file without times: a Redwood log's own numbers
+  line_numbers    // of a file without times: 0, 1, 2, ... in the order of its poses
+};
+
+/// The poses of a file with what their times are.
+struct PoseFile {
+  Trajectory poses;
+  StampKind stamps = StampKind::times;
+};
+PoseFile read_pose_file(const std::string& path, const std::string& times_path = "");
+PoseFile parse_pose_file(const std::string& name, const std::string& text);
+
 /// The same from text; `name` stands for the file in errors.
 Trajectory parse_trajectory(const std::string& name, const std::string& text);
 
