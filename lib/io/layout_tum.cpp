@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
+#include "odosplat/core/stamp_guess.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/list_file.hpp"
@@ -108,6 +110,20 @@ std::map<long long, SE3> icl_poses(const std::string& folder) {
   return poses;
 }
 
+// Poses and images that never meet are mostly stamps in two units.
+void warn_if_unposed(const std::string& truth, const SequenceIndex& index) {
+  if (index.truth.empty()) return;
+  NamedStamps images{"the images", {}};
+  for (const FrameFiles& frame : index.frames) {
+    if (frame.T_world_camera) return;
+    images.times.push_back(frame.time);
+  }
+  NamedStamps poses{"the poses", {}};
+  for (const StampedPose& pose : index.truth) poses.times.push_back(pose.time);
+  log_warning(truth + ": none of its poses is of the time of an image; " +
+              guess_stamp_fault(images, poses, tum_depth_tolerance));
+}
+
 }  // namespace
 
 bool is_tum(const std::string& path) { return file_exists(join(path, "rgb.txt")) || has_pairs_with_times(path); }
@@ -128,6 +144,7 @@ SequenceIndex index_tum(const std::string& path, const SequenceOptions& options)
     frame.T_world_camera = pose_at(index.truth, frame.time);
     if (!frame.depth.empty()) frame.T_world_depth = pose_at(index.truth, frame.depth_time);
   }
+  warn_if_unposed(truth, index);
   return index;
 }
 

@@ -12,6 +12,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/near_origin.hpp"
+#include "odosplat/core/stamp_guess.hpp"
 #include "odosplat/io/image_file.hpp"
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/photometric.hpp"
@@ -191,7 +192,12 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
     for (StampedPose& pose : index.truth) pose.T_world_camera = reflected(pose.T_world_camera);
   }
   data->require_near();
-  data->fps = index.camera.fps > 0.0 ? index.camera.fps : median_fps(index.frames);
+  const double listed_fps = median_fps(index.frames);
+  data->fps = index.camera.fps > 0.0 ? index.camera.fps : listed_fps;
+  if (const std::string unit = unit_of_step(1.0 / listed_fps); !unit.empty()) {
+    log_warning(path + ": its images are " + std::to_string(1.0 / listed_fps) +
+                " s apart (median): their stamps look like " + unit + " where seconds are expected");
+  }
   // Videos have no header of ours, and what the lens has done is undone at the camera's size.
   data->any_size().check(index.camera_source, data->camera_size());
   if (index.video) {

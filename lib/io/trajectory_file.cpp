@@ -8,11 +8,13 @@
 #include <cmath>
 #include <cstdio>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/euroc_csv.hpp"
 #include "odosplat/io/text_words.hpp"
 
 namespace odosplat {
@@ -180,8 +182,17 @@ void set_times(const std::string& times_path, Trajectory& trajectory) {
   require_order(lines, 1, trajectory);
 }
 
-// Every pose that the file lists, no_pose() where it is not finite.
-Trajectory listed_poses(const std::string& name, const std::string& text) {
+// Every pose that a file lists, no_pose() where it is not finite.
+struct Listed {
+  Trajectory poses;
+  StampKind stamps = StampKind::times;
+};
+
+Listed listed_poses(const std::string& name, const std::string& text) {
+  if (is_euroc_csv(text)) {
+    log_info(name + ": a table of EuRoC: its poses are of the body (the IMU)");
+    return {parse_euroc_csv(name, text), StampKind::times};
+  }
   const Lines lines(name, text);
   if (lines.all().empty()) throw InputError(name, "holds no pose");
   const std::size_t first = lines.all().front().values.size();
@@ -189,18 +200,22 @@ Trajectory listed_poses(const std::string& name, const std::string& text) {
   const bool rows = first == 4;
   Trajectory trajectory = log ? redwood_log(lines) : rows ? pose_in_three_rows(lines) : pose_a_line(lines);
   require_order(lines, log ? 5 : rows ? 3 : 1, trajectory);
-  return trajectory;
+  return {std::move(trajectory), log          ? StampKind::frame_numbers
+                                 : first == 8 ? StampKind::times
+                                              : StampKind::line_numbers};
 }
 
-PoseFile pose_file(const std::string& name, Trajectory listed) {
+PoseFile pose_file(const std::string& name, Listed listed) {
   PoseFile file;
-  const std::size_t all = listed.size();
+  file.stamps = listed.stamps;
+  const std::size_t all = listed.poses.size();
   for (std::size_t i = 0; i < all; ++i) {
-    if (!listed[i].T_world_camera.is_finite()) {
-      file.times_without_pose.push_back(listed[i].time);
+    StampedPose& pose = listed.poses[i];
+    if (!pose.T_world_camera.is_finite()) {
+      file.times_without_pose.push_back(pose.time);
       continue;
     }
-    file.poses.push_back(std::move(listed[i]));
+    file.poses.push_back(std::move(pose));
     file.numbers.push_back(i);
   }
   const std::size_t without = file.times_without_pose.size();
@@ -224,8 +239,12 @@ std::optional<SE3> pose_from_rows(const std::vector<double>& rows) {
   return SE3(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()), Eigen::Vector3d(M.col(3)));
 }
 
+PoseFile parse_pose_file(const std::string& name, const std::string& text) {
+  return pose_file(name, listed_poses(name, text));
+}
+
 Trajectory parse_trajectory(const std::string& name, const std::string& text) {
-  return pose_file(name, listed_poses(name, text)).poses;
+  return parse_pose_file(name, text).poses;
 }
 
 std::optional<SE3> parse_pose_matrix(const std::string& name, const std::string& text) {
@@ -241,8 +260,11 @@ std::optional<SE3> parse_pose_matrix(const std::string& name, const std::string&
 std::optional<SE3> read_pose_matrix(const std::string& path) { return parse_pose_matrix(path, read_file(path)); }
 
 PoseFile read_pose_file(const std::string& path, const std::string& times_path) {
-  Trajectory listed = listed_poses(path, read_file(path));
-  if (!times_path.empty()) set_times(times_path, listed);
+  Listed listed = listed_poses(path, read_file(path));
+  if (!times_path.empty()) {
+    set_times(times_path, listed.poses);
+    listed.stamps = StampKind::times;
+  }
   return pose_file(path, std::move(listed));
 }
 

@@ -4,27 +4,79 @@
 
 #include <cmath>
 #include <mutex>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
+#include <optional>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
-#include "odosplat/io/quiet_opencv.hpp"
+#include "odosplat/io/video_decoder.hpp"
 
 namespace odosplat {
 namespace {
 
-bool open_capture(cv::VideoCapture& capture, const std::string& path) {
-  const QuietOpenCv quiet;
-  // Not cv::CAP_ANY: its image-sequence backend takes any file with a number in its name for a pattern.
-  for (const int backend : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG}) {
-    try {
-      if (capture.open(path, backend)) return true;
-    } catch (const cv::Exception&) {
-      capture.release();
+constexpr double same_step = 1e-3;  // [s] containers round their stamps
+
+std::string size_text(const cv::Size& size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
+
+// What a pass through the whole file finds.
+struct Pass {
+  std::vector<std::optional<double>> times;
+  std::vector<std::optional<double>> best_times;
+  cv::Size frame_size;
+};
+
+Pass read_all(const std::string& path, VideoDecoder& decoder) {
+  Pass pass;
+  while (decoder.next()) {
+    if (pass.times.empty()) pass.frame_size = decoder.size();
+    if (decoder.size() != pass.frame_size) {
+      throw InputError(path, "frame " + std::to_string(pass.times.size()),
+                       "is " + size_text(decoder.size()) + ", those before are " + size_text(pass.frame_size));
+    }
+    pass.times.push_back(decoder.time());
+    pass.best_times.push_back(decoder.best_time());
+  }
+  if (pass.times.empty()) throw InputError(path, "holds no frame");
+  return pass;
+}
+
+bool are_all_known(const std::vector<std::optional<double>>& times) {
+  for (const std::optional<double>& time : times) {
+    if (!time) return false;
+  }
+  return true;
+}
+
+// True if every known time lies on one grid of `step`, as far as its rounding tells.
+bool is_regular(const std::vector<std::optional<double>>& times, double step) {
+  std::optional<double> first;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (!times[k]) continue;
+    const double start = *times[k] - static_cast<double>(k) * step;
+    if (!first) first = start;
+    if (!(std::abs(start - *first) <= same_step)) return false;
+  }
+  return true;
+}
+
+std::vector<double> times_of(const std::string& path, const Pass& pass, double rate) {
+  std::vector<double> times;
+  if (are_all_known(pass.times)) {
+    for (const std::optional<double>& time : pass.times) times.push_back(*time);
+  } else {
+    if (!(rate > 0.0) || !is_regular(pass.best_times, 1.0 / rate)) {
+      throw InputError(path,
+                       "has no presentation stamps, and its images do not come at a constant rate; MP4 and "
+                       "Matroska (.mkv) hold stamps");
+    }
+    for (std::size_t k = 0; k < pass.times.size(); ++k) times.push_back(static_cast<double>(k) / rate);
+  }
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    if (!(times[k] > times[k - 1])) {
+      throw InputError(path, "frame " + std::to_string(k),
+                       "its stamp " + std::to_string(times[k]) + " s is not after " + std::to_string(times[k - 1]));
     }
   }
-  return false;
+  return times;
 }
 
 }  // namespace
@@ -33,48 +85,43 @@ struct VideoReader::State {
   std::string path;
   std::size_t size = 0;
   cv::Size frame_size;
-  double fps = 0.0;
+  int quarters = 0;
+  std::vector<double> times;
   std::mutex mutex;
-  cv::VideoCapture capture;
-  std::size_t next = 0;  // number of the frame that the capture gives next
+  std::optional<VideoDecoder> decoder;
+  std::size_t next = 0;  // number of the frame that the decoder gives next
 };
 
 VideoReader::VideoReader(std::string path) : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.path = std::move(path);
   require_regular_file(s.path);
-  if (!open_capture(s.capture, s.path)) throw InputError(s.path, "is not a video that can be read");
-  s.fps = s.capture.get(cv::CAP_PROP_FPS);
-  if (!std::isfinite(s.fps) || s.fps < 0.0) s.fps = 0.0;
-  s.frame_size = {static_cast<int>(s.capture.get(cv::CAP_PROP_FRAME_WIDTH)),
-                  static_cast<int>(s.capture.get(cv::CAP_PROP_FRAME_HEIGHT))};
-  while (s.capture.grab()) ++s.size;
-  s.next = s.size;
-  if (s.size == 0) throw InputError(s.path, "holds no frame");
+  VideoDecoder decoder(s.path);
+  const Pass pass = read_all(s.path, decoder);
+  s.size = pass.times.size();
+  s.frame_size = pass.frame_size;
+  s.quarters = decoder.quarters();
+  if (decoder.has_stamps()) s.times = times_of(s.path, pass, decoder.rate());
 }
 
 VideoReader::~VideoReader() = default;
 
 std::size_t VideoReader::size() const { return state_->size; }
 cv::Size VideoReader::frame_size() const { return state_->frame_size; }
-double VideoReader::fps() const { return state_->fps; }
+int VideoReader::quarters() const { return state_->quarters; }
+const std::vector<double>& VideoReader::times() const { return state_->times; }
 
 cv::Mat3b VideoReader::frame(std::size_t i) const {
   State& s = *state_;
   const std::lock_guard lock(s.mutex);
-  if (i < s.next) {
-    if (!open_capture(s.capture, s.path)) throw InputError(s.path, "cannot be read any more");
+  if (!s.decoder || i < s.next) {
+    s.decoder.emplace(s.path);
     s.next = 0;
   }
-  while (s.next < i && s.capture.grab()) ++s.next;
-  cv::Mat bgr;
-  if (s.next != i || !s.capture.read(bgr) || bgr.channels() != 3) {
-    throw InputError(s.path, "frame " + std::to_string(i), "cannot be decoded");
+  for (; s.next <= i; ++s.next) {
+    if (!s.decoder->next()) throw InputError(s.path, "frame " + std::to_string(i), "cannot be decoded");
   }
-  ++s.next;
-  cv::Mat3b rgb;
-  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
-  return rgb;
+  return s.decoder->image();
 }
 
 }  // namespace odosplat

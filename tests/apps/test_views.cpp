@@ -35,7 +35,7 @@ TEST(ViewFly, FilmsACloudAlongAPath) {
   ASSERT_EQ(done.status, 0) << done.err;
   const VideoReader film((folder / "film.avi").string());
   EXPECT_EQ(film.size(), 5U);
-  EXPECT_NEAR(film.fps(), 10.0, 1e-6);
+  EXPECT_NEAR(film.times().back(), 0.4, 1e-3);
   EXPECT_EQ(film.frame_size().width, 320);
   arguments = fly;
   arguments.insert(arguments.end(), {"--out", folder / "film.gif"});

@@ -38,8 +38,8 @@ const std::map<std::string, Room> house{
     {"io",
      {"lib/io",
       {"core"},
-      {"Eigen", "opencv2/core", "opencv2/imgproc", "opencv2/imgcodecs", "opencv2/videoio", "yaml-cpp", "nlohmann",
-       "spdlog"}}},
+      {"Eigen", "opencv2/core", "opencv2/imgproc", "opencv2/imgcodecs", "opencv2/videoio", "libavcodec", "libavformat",
+       "libavutil", "libswscale", "yaml-cpp", "nlohmann", "spdlog"}}},
     {"map", {"lib/map", {"core"}, {"Eigen", "opencv2/core", "opencv2/imgproc", "nanoflann"}}},
     {"splat", {"lib/splat", {"core", "compute", "map", "kernels", "io"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
     {"odometry",
@@ -75,7 +75,7 @@ std::vector<std::string> includes_of(const std::string& text) {
 // "" for the standard library and POSIX, else the library's name as the table has it.
 std::string library_of(const std::string& include) {
   static const std::regex foreign(
-      R"re((Eigen|opencv2/\w+|ceres|CL|EGL|GL|spdlog|yaml-cpp|nlohmann|tbb|CLI|gtest|gmock)[/.].*)re");
+      R"re((Eigen|opencv2/\w+|ceres|libav\w+|libsw\w+|CL|EGL|GL|spdlog|yaml-cpp|nlohmann|tbb|CLI|gtest|gmock)[/.].*)re");
   std::smatch match;
   if (std::regex_match(include, match, foreign)) return match[1];
   if (include.rfind("nanoflann", 0) == 0) return "nanoflann";

@@ -136,6 +136,21 @@ TEST(SequenceTum, AssociatesDepthWithinTwentyMilliseconds) {
   EXPECT_TRUE(s.has_depth(2));
 }
 
+TEST(SequenceTum, StampsInAnotherUnitAreNamed) {
+  const TempFolder temp;
+  put_tum(temp);
+  const auto warnings = [&] {
+    testing::internal::CaptureStderr();
+    Sequence::open(temp.path());
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(warnings(), "");
+  temp.put("rgb.txt", "10000000000 rgb/10.000.png\n10100000000 rgb/10.100.png\n10200000000 rgb/10.200.png\n");
+  EXPECT_THAT(warnings(), HasSubstr("groundtruth.txt: none of its poses is of the time of an image; the stamps of the "
+                                    "images look like ns"));
+  EXPECT_THAT(warnings(), HasSubstr("s apart (median): their stamps look like ns where seconds are expected"));
+}
+
 TEST(SequenceTum, DepthHasThePoseOfItsOwnStamp) {
   const TempFolder temp;
   put_tum(temp);

@@ -31,7 +31,7 @@ TEST(VideoWriter, WritesWhatTheReaderReads) {
     writer.commit();
     const VideoReader reader(path);
     EXPECT_EQ(reader.size(), 5U);
-    EXPECT_NEAR(reader.fps(), 12.0, 1e-6);
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(reader.times().at(k), static_cast<double>(k) / 12.0, 1e-4);
     ASSERT_EQ(reader.frame_size(), cv::Size(64, 48));
     for (std::size_t k = 0; k < 5; ++k) {
       const cv::Vec3b pixel = reader.frame(k)(24, 32);
