@@ -204,9 +204,13 @@ TrainOutcome train_map(const Common& common, const TrainJob& job) {
   const TrainerOptions options = trainer_options(job, views.count());
   options.check();
   const TrainingStart prepared = prepare_training(job.cloud, job.voxel, job.remove_outliers, initial, views);
-  if (prepared.doubt)
+  if (prepared.doubt) {
+    char shares[96];
+    std::snprintf(shares, sizeof(shares), " (%.0f %% of the variance is left unexplained, instead of %.0f %%)",
+                  100.0 * prepared.doubt->as_given, 100.0 * prepared.doubt->instead);
     log_warning("the images disagree on the colours of the cloud's points: likely cause: " +
-                prepared.doubt->hypothesis.words());
+                prepared.doubt->hypothesis.words() + shares);
+  }
   const compute::Context device = open_device(common);
   log_info("training " + std::to_string(prepared.start.size()) + " Gaussians on " + std::to_string(views.count()) +
            " images");

@@ -19,6 +19,7 @@ constexpr double surroundings_px = 4.0;  // standard deviation of the window, in
 constexpr std::size_t least_points = 200;
 // A hypothesis must leave at most this share of what the files leave: the rest is chance and the search's own gain.
 constexpr double clearly_better = 0.8;
+constexpr double least_gain = 0.05;  // and this much less: next to nothing is no doubt, whatever the ratio
 
 }  // namespace
 
@@ -42,29 +43,65 @@ std::string GeometryHypothesis::words() const {
 
 ColorConsistency::ColorConsistency(const PointCloud& cloud, TrainingViews& views,
                                    const ColorConsistencyOptions& options)
-    : points_((options.check(), thinned_evenly(cloud, options.points))) {
+    : ColorConsistency((options.check(), thinned_evenly(cloud, options.points)), views, options, 0) {}
+
+ColorConsistency::ColorConsistency(const PointCloud& thinned, TrainingViews& views,
+                                   const ColorConsistencyOptions& options, int)
+    : points_(thinned) {
+  for (const Eigen::Vector3f& c : thinned.colors) grays_.push_back(c.dot(Eigen::Vector3f(0.299F, 0.587F, 0.114F)));
   const int used = std::min(options.views, views.count());
   for (int k = 0; k < used; ++k) {
     const int i = static_cast<int>(static_cast<long>(k) * views.count() / used);
-    View view{to_gray(views.color(i)), views.camera(i), views.T_world_camera(i)};
+    View view{to_gray(views.color(i)), {}, views.camera(i), views.T_world_camera(i)};
     if (view.camera.width > options.width) {
       const double ratio = static_cast<double>(options.width) / view.camera.width;
       const int height = std::max(1, static_cast<int>(std::lround(ratio * view.camera.height)));
       view.camera = view.camera.resized(options.width, height);
-      cv::resize(view.image, view.image, cv::Size(options.width, height), 0.0, 0.0, cv::INTER_AREA);
+      cv::resize(view.gray, view.gray, cv::Size(options.width, height), 0.0, 0.0, cv::INTER_AREA);
     }
+    if (view.gray.cols < 2 || view.gray.rows < 2) continue;  // nothing to interpolate
     cv::Mat1f mean;
-    cv::GaussianBlur(view.image, mean, cv::Size(), surroundings_px);
-    view.image -= mean;
+    cv::GaussianBlur(view.gray, mean, cv::Size(), surroundings_px);
+    view.detail = view.gray - mean;
     views_.push_back(std::move(view));
   }
 }
 
+namespace {
+
+/// 1 - r^2 of pairs, from their sums; 1 where there is nothing to correlate.
+struct Correlation {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
+  void add(double a, double b) {
+    n += 1.0;
+    x += a;
+    y += b;
+    xx += a * a;
+    yy += b * b;
+    xy += a * b;
+  }
+  double unexplained() const {
+    const double covariance = n * xy - x * y;
+    const double variances = (n * xx - x * x) * (n * yy - y * y);
+    if (!(variances > 0.0) || covariance <= 0.0) return 1.0;
+    return std::clamp(1.0 - covariance * covariance / variances, 0.0, 1.0);
+  }
+};
+
+struct Observation {
+  std::size_t point;
+  double detail;
+};
+
+}  // namespace
+
 ColorConsistency::Value ColorConsistency::of(const GeometryHypothesis& hypothesis) const {
-  std::vector<std::vector<std::pair<std::size_t, double>>> values(views_.size());
+  std::vector<std::vector<Observation>> values(views_.size());
+  std::vector<Correlation> with_cloud(views_.size());  // each view has an exposure of its own
   parallel_for(static_cast<int>(views_.size()), 1, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
-      const View& view = views_[static_cast<std::size_t>(k)];
+      const auto at = static_cast<std::size_t>(k);
+      const View& view = views_[at];
       Camera camera = view.camera;
       camera.fx *= hypothesis.focal;
       camera.fy *= hypothesis.focal;
@@ -74,8 +111,9 @@ ColorConsistency::Value ColorConsistency::of(const GeometryHypothesis& hypothesi
       for (const SeenPoints::Point& p : points_.in(camera, T_world_camera)) {
         const float u = std::clamp(p.u, 0.0F, static_cast<float>(camera.width - 1));
         const float v = std::clamp(p.v, 0.0F, static_cast<float>(camera.height - 1));
-        if (view.image.cols < 2 || view.image.rows < 2) continue;
-        values[static_cast<std::size_t>(k)].emplace_back(p.index, static_cast<double>(bilinear(view.image, u, v)));
+        values[at].push_back({p.index, static_cast<double>(bilinear(view.detail, u, v))});
+        if (!grays_.empty())
+          with_cloud[at].add(static_cast<double>(grays_[p.index]), static_cast<double>(bilinear(view.gray, u, v)));
       }
     }
   });
@@ -83,10 +121,10 @@ ColorConsistency::Value ColorConsistency::of(const GeometryHypothesis& hypothesi
   std::vector<double> squares(points_.size(), 0.0);
   std::vector<int> counts(points_.size(), 0);
   for (const auto& of_view : values) {
-    for (const auto& [index, value] : of_view) {
-      sums[index] += value;
-      squares[index] += value * value;
-      ++counts[index];
+    for (const Observation& o : of_view) {
+      sums[o.point] += o.detail;
+      squares[o.point] += o.detail * o.detail;
+      ++counts[o.point];
     }
   }
   Value result;
@@ -99,7 +137,16 @@ ColorConsistency::Value ColorConsistency::of(const GeometryHypothesis& hypothesi
     within += (squares[i] - sums[i] * sums[i] / n) * n / (n - 1.0);
     all += squares[i];  // about zero, the mean of a value less its surroundings
   }
-  if (result.points >= least_points && all > 0.0) result.unexplained = within / all;
+  if (result.points < least_points || !(all > 0.0)) return result;
+  result.unexplained = within / all;
+  if (grays_.empty()) return result;
+  double weighted = 0.0;
+  double pairs = 0.0;
+  for (const Correlation& c : with_cloud) {
+    weighted += c.n * c.unexplained();
+    pairs += c.n;
+  }
+  result.unexplained = std::sqrt(result.unexplained * weighted / pairs);
   return result;
 }
 
@@ -135,11 +182,13 @@ std::optional<GeometryDoubt> geometry_doubt(const ColorConsistency& consistency)
       }
     }
   }
-  if (least < best.instead) {
+  // Three numbers to choose from explain more than one does.
+  if (least < clearly_better * best.instead) {
     best.hypothesis = moved;
     best.instead = least;
   }
-  if (!(best.instead < clearly_better * best.as_given)) return std::nullopt;
+  if (!(best.instead < clearly_better * best.as_given) || best.as_given - best.instead < least_gain)
+    return std::nullopt;
   return best;
 }
 

@@ -31,15 +31,19 @@ struct ColorConsistencyOptions {
   void check() const;
 };
 
-/// Whether cloud, poses and camera belong together, by the images alone, before any training: points on a surface look
-/// alike in all images that see them. Compared are grey values less their surroundings' mean (exposure cancels).
+/// Whether cloud, poses and camera belong together, before any training: points on a surface look alike in all images
+/// that see them, and like the cloud's own colours, if it has any. Images are compared by grey values less their
+/// surroundings' mean (exposure cancels); with the cloud by the correlation of grey values, which shows an offset even
+/// where cameras turn in one place and all images err alike.
 /// Keeps the reduced images. Frames: cloud and poses in one world frame [m]. Uses all threads; deterministic.
 class ColorConsistency {
  public:
   struct Value {
-    double unexplained = 1.0;  // variance within the points over the variance of all values: 0 as it should be, about 1
-                               // where images and points have nothing to do with each other
-    std::size_t points = 0;    // seen by two images or more
+    // Variance within the points over the variance of all values: 0 as it should be, about 1 where images and points
+    // have nothing to do with each other; with coloured clouds the geometric mean of that and of the share of the
+    // images' variance that the cloud's colours do not explain.
+    double unexplained = 1.0;
+    std::size_t points = 0;  // seen by two images or more
   };
 
   ColorConsistency(const PointCloud& cloud, TrainingViews& views, const ColorConsistencyOptions& options = {});
@@ -47,11 +51,15 @@ class ColorConsistency {
 
  private:
   struct View {
-    GrayImage image;
+    GrayImage gray;
+    GrayImage detail;  // less the surroundings' mean
     Camera camera;
     SE3 T_world_camera;
   };
+  ColorConsistency(const PointCloud& thinned, TrainingViews& views, const ColorConsistencyOptions& options, int);
+
   SeenPoints points_;
+  std::vector<float> grays_;  // of the points; empty: the cloud has no colours
   std::vector<View> views_;
 };
 

@@ -155,11 +155,13 @@ TEST(ColorConsistency, NamesWhatIsWrong) {
   {
     WrongViews views;
     PointCloud off = cloud;
-    const Eigen::Vector3f shift(0.0F, 0.05F, 0.25F);
+    const Eigen::Vector3f shift(0.2F, 0.1F, 0.0F);  // along the wall: towards it looks like another focal length
     for (Eigen::Vector3f& p : off.points) p += shift;
     const auto doubt = geometry_doubt(ColorConsistency(off, views));
     ASSERT_TRUE(doubt);
-    EXPECT_LT((doubt->hypothesis.offset - shift.cast<double>()).norm(), 0.08) << doubt->hypothesis.words();
+    // Along the wall a pixel is 3 cm there; across it, cameras that look straight at it hardly tell.
+    const Eigen::Vector3d error = doubt->hypothesis.offset - shift.cast<double>();
+    EXPECT_LT(error.head<2>().norm(), 0.05) << doubt->hypothesis.words();
   }
 }
 
