@@ -4,6 +4,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
@@ -18,13 +20,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_avi(const std::string& path) { return fs::path(path).extension() == ".avi"; }
+/// Whether the name ends so, in any case.
+bool ends_in(const std::string& path, const std::string& ending) {
+  std::string text = fs::path(path).extension().string();
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text == ending;
+}
 
-// The ending stays last: FFmpeg tells the format by it.
+bool is_avi(const std::string& path) { return ends_in(path, ".avi"); }
+
+// The ending stays last, in small letters: FFmpeg and OpenCV tell the format by it.
 std::string name_beside(const std::string& path) {
   const fs::path whole(path);
   return (whole.parent_path() / (whole.stem().string() + ".part" + std::to_string(getpid()))).string() +
-         whole.extension().string();
+         (is_avi(path) ? ".avi" : ".mp4");
 }
 
 }  // namespace
@@ -37,7 +47,7 @@ struct VideoWriter::State {
 };
 
 void check_video_name(const std::string& path) {
-  if (is_avi(path) || fs::path(path).extension() == ".mp4") return;
+  if (is_avi(path) || ends_in(path, ".mp4")) return;
   throw InputError(path, "a video's name must end in .avi or .mp4");
 }
 
