@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmark/checksum.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/convention_check.hpp"
 #include "odosplat/eval/texture.hpp"
@@ -96,15 +97,15 @@ void run(SequenceFlags flags, const ConventionOptions& options, const std::strin
     return sequence.depth(frames.frames[k]);
   };
   const ConventionReport report = check_conventions(frames.input, options);
-  std::printf("%s: layout %s, %zu images, %zu with depth, %dx%d\n", sequence.name().c_str(), sequence.layout().c_str(),
-              sequence.size(), frames.frames.size(), sequence.camera().width, sequence.camera().height);
+  print("%s: layout %s, %zu images, %zu with depth, %dx%d\n", sequence.name().c_str(), sequence.layout().c_str(),
+        sequence.size(), frames.frames.size(), sequence.camera().width, sequence.camera().height);
   const std::string gap =
       std::to_string(report.gap) + (report.max_gap > report.gap ? " to " + std::to_string(report.max_gap) : "");
-  std::printf("depth of one image reprojected into another %s frames on, %d pairs\n", gap.c_str(), report.pairs);
-  std::printf("%s", convention_table(report, sequence.camera()).c_str());
-  std::printf("%s\n", report.verdict.c_str());
+  print("depth of one image reprojected into another %s frames on, %d pairs\n", gap.c_str(), report.pairs);
+  print("%s", convention_table(report, sequence.camera()).c_str());
+  print("%s\n", report.verdict.c_str());
   const TextureSummary texture = texture_of(sequence);
-  std::printf(
+  print(
       "texture at 320x240: %.1f %% of pixels with a gradient over 8; blocks of 32x32: tenth %.1f, median %.1f, "
       "ninth tenth %.1f %%, %.1f %% of them bare (%d images)\n",
       100.0 * texture.share, 100.0 * texture.block_p10, 100.0 * texture.block_p50, 100.0 * texture.block_p90,
@@ -120,8 +121,8 @@ void add_check(CLI::App& app, Common& common) {
   auto flags = std::make_shared<SequenceFlags>();
   auto options = std::make_shared<ConventionOptions>();
   add_sequence_flags(command, *flags);
-  command->add_option("--gap", options->gap, "frames between the two images of a pair");
-  command->add_option("--pairs", options->pairs, "pairs of images");
+  add_number(command, "--gap", options->gap, {.least = 1}, "frames between the two images of a pair");
+  add_number(command, "--pairs", options->pairs, {.least = 1, .most = 100000}, "pairs of images");
   auto json = std::make_shared<std::string>();
   command->add_option("--json", *json, "file to write the verdict and a checksum of the sequence's data to");
   command->final_callback([flags, options, json] { run(*flags, *options, *json); });

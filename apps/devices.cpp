@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "odosplat/compute/device.hpp"
+#include "odosplat/compute/no_device.hpp"
 #include "support.hpp"
 
 namespace odosplat::apps {
@@ -21,12 +22,12 @@ const char* word_for(compute::DeviceType type) {
 }
 
 void print_table(const std::vector<compute::DeviceInfo>& devices, int chosen) {
-  if (devices.empty()) std::puts("no OpenCL device was found; pocl-opencl-icd serves any CPU");
+  if (devices.empty()) print("no OpenCL device was found; %s\n", compute::no_device_reason().c_str());
   for (const compute::DeviceInfo& d : devices) {
-    std::printf("%c %d  %s  [%s, %u units, %.1f GiB]\n     %s, driver %s, %s\n", d.index == chosen ? '*' : ' ', d.index,
-                d.name.c_str(), word_for(d.type), d.compute_units, d.memory_gib, d.platform.c_str(),
-                d.driver_version.c_str(), d.opencl_version.c_str());
-    if (!d.refusal.empty()) std::printf("     refused: %s\n", d.refusal.c_str());
+    print("%c %d  %s  [%s, %u units, %.1f GiB]\n     %s, driver %s, %s\n", d.index == chosen ? '*' : ' ', d.index,
+          d.name.c_str(), word_for(d.type), d.compute_units, d.memory_gib, d.platform.c_str(), d.driver_version.c_str(),
+          d.opencl_version.c_str());
+    if (!d.refusal.empty()) print("     refused: %s\n", d.refusal.c_str());
   }
 }
 
@@ -46,7 +47,8 @@ void print_json(const std::vector<compute::DeviceInfo>& devices, int chosen) {
                     {"refusal", d.refusal},
                     {"chosen", d.index == chosen}});
   }
-  std::puts(list.dump(2).c_str());
+  // A driver's name may be in any encoding.
+  print("%s\n", list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
 }  // namespace
