@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -49,12 +50,12 @@ PointCloud points_of(const AlignFlags& flags, const Sequence& sequence) {
 
 void print_result(const AlignFlags& flags, const Sim3IcpResult& r, std::size_t frames) {
   const Similarity& S = r.cloud_from_points;
-  std::printf("scale %.6f, turned by %.3f deg, moved by %.4f m\n", S.scale,
-              S.T_target_source.angle() * 180.0 / std::numbers::pi, S.T_target_source.translation().norm());
-  std::printf("transform (s tx ty tz qx qy qz qw) %s\n", similarity_text(S).c_str());
-  std::printf("%d of %d points (%.1f %%) within %g m of the cloud: median %.4f m, RMSE %.4f m, %d iterations\n",
-              r.inliers, r.points, 100.0 * r.inlier_share, flags.icp.inlier, r.median_m, r.rmse_m, r.iterations);
-  std::printf("%s: %zu posed images in the cloud's frame\n", flags.out.c_str(), frames);
+  print("scale %.6f, turned by %.3f deg, moved by %.4f m\n", S.scale,
+        S.T_target_source.angle() * 180.0 / std::numbers::pi, S.T_target_source.translation().norm());
+  print("transform (s tx ty tz qx qy qz qw) %s\n", similarity_text(S).c_str());
+  print("%d of %d points (%.1f %%) within %g m of the cloud: median %.4f m, RMSE %.4f m, %d iterations\n", r.inliers,
+        r.points, 100.0 * r.inlier_share, flags.icp.inlier, r.median_m, r.rmse_m, r.iterations);
+  print("%s: %zu posed images in the cloud's frame\n", flags.out.c_str(), frames);
 }
 
 void run(const AlignFlags& flags) {
@@ -80,15 +81,19 @@ void run(const AlignFlags& flags) {
   print_result(flags, result, frames);
 }
 
-constexpr const char* footer = R"(
-Sparse points of the poses' frame (COLMAP's points3D, the ply_file_path of a transforms.json, or --points) are laid on
-the cloud by scale, rotation and translation, starting from --guess, from --pairs or, without both, from where they are.
-About 20 cm, 10 degrees and 10 % of scale are near enough in a room. A result that cannot be trusted is refused.
-
---out gets a sequence for train, track and eval: groundtruth.txt in the cloud's frame, rgb.txt with the posed images by
-absolute path, camera.yaml with the lens distortion; and transform.txt. Depth images, if the sequence has any, are
-taken to be in the unit of its poses and are scaled with them: depth.txt names them, camera.yaml's depth_scale is divided
-by the scale. Where depth is in metres already and the poses are not, delete depth.txt.)";
+constexpr const char* footer =
+    "Sparse points of the poses' frame (COLMAP's points3D, the ply_file_path of a transforms.json, or --points) are "
+    "laid "
+    "on the cloud by scale, rotation and translation, starting from --guess, from --pairs or, without both, from where "
+    "they are. About 20 cm, 10 degrees and 10 % of scale are near enough in a room. A result that cannot be trusted is "
+    "refused.\n"
+    "\n"
+    "--out gets a sequence for train, track and eval: groundtruth.txt in the cloud's frame, rgb.txt with the posed "
+    "images "
+    "by absolute path, camera.yaml with the lens distortion; and transform.txt. Depth images, if the sequence has any, "
+    "are taken to be in the unit of its poses and are scaled with them: depth.txt names them, camera.yaml's "
+    "depth_scale "
+    "is divided by the scale. Where depth is in metres already and the poses are not, delete depth.txt.";
 
 }  // namespace
 
@@ -108,12 +113,15 @@ void add_align(CLI::App& app, Common& common) {
       ->excludes(guess);
   command->add_option("--out", flags->out, "folder for the sequence in the cloud's frame and transform.txt")
       ->required();
-  command->add_option("--radius", flags->icp.radius, "how far off the points may be at the start [m]");
-  command->add_option("--inlier", flags->icp.inlier, "distance from the cloud up to which a point lies on it [m]");
-  command->add_option("--min-inliers", flags->icp.min_inliers,
-                      "share of such points below which the result is refused");
-  command->add_option("--max-change", flags->icp.max_change, "factor by which the scale may leave the guess");
-  command->footer(footer + 1);
+  const Bounds<double> length{.least = 0.0, .most = 10000.0, .least_excluded = true};
+  add_number(command, "--radius", flags->icp.radius, length, "how far off the points may be at the start [m]");
+  add_number(command, "--inlier", flags->icp.inlier, length,
+             "distance from the cloud up to which a point lies on it [m]");
+  add_number(command, "--min-inliers", flags->icp.min_inliers, {.least = 0.0, .most = 1.0},
+             "share of such points below which the result is refused");
+  add_number(command, "--max-change", flags->icp.max_change, {.least = 1.0, .most = 1000.0, .least_excluded = true},
+             "factor by which the scale may leave the guess");
+  command->footer(footer);
   command->final_callback([flags] { run(*flags); });
 }
 

@@ -11,6 +11,7 @@
 #include "benchmark/plan.hpp"
 #include "benchmark/report.hpp"
 #include "commands.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
@@ -29,11 +30,11 @@ struct BenchmarkFlags {
 };
 
 void print_summary(const BenchmarkResults& results) {
-  std::printf("%-12s", "ATE [mm]");
-  for (const std::string& method : results.methods) std::printf(" %18s", method.c_str());
-  std::printf("\n");
+  print("%-12s", "ATE [mm]");
+  for (const std::string& method : results.methods) print(" %18s", method.c_str());
+  print("\n");
   for (const SequenceFacts& sequence : results.sequences) {
-    std::printf("%-12s", sequence.name.c_str());
+    print("%-12s", sequence.name.c_str());
     for (const std::string& method : results.methods) {
       const auto cell = summarise(results, sequence.name, method);
       char text[40] = "x";
@@ -41,11 +42,11 @@ void print_summary(const BenchmarkResults& results) {
         std::snprintf(text, sizeof(text), "%.2f%s", 1000.0 * cell->ate_m.median,
                       cell->coverage.median < 0.995 ? " (part)" : "");
       }
-      std::printf(" %18s", text);
+      print(" %18s", text);
     }
-    std::printf("\n");
+    print("\n");
   }
-  if (results.stand_in) std::printf("Stand-ins made by this program, not the data sets of these names.\n");
+  if (results.stand_in) print("Stand-ins made by this program, not the data sets of these names.\n");
 }
 
 /// Map and cloud of each sequence as its runs have them, for the figures.
@@ -60,8 +61,8 @@ void report(const Common& common, const Plan& plan) {
   const auto figures = draw_benchmark_figures(common, results, maps_of(plan), plan.options.out);
   write_reports(results, figures, plan.options.out);
   print_summary(results);
-  std::printf("%s: report.md, report.html, report.json, tables.csv, tables.tex, speed.csv, speed.tex, figures\n",
-              plan.options.out.c_str());
+  print("%s: report.md, report.html, report.json, tables.csv, tables.tex, speed.csv, speed.tex, figures\n",
+        plan.options.out.c_str());
 }
 
 void run(const Common& common, BenchmarkFlags flags) {
@@ -72,14 +73,14 @@ void run(const Common& common, BenchmarkFlags flags) {
   Plan plan = go_on ? read_plan(flags.options.out) : make_plan(flags.options);
   if (!flags.job.empty()) {
     const std::string fault = run_one_job(plan.options.out, plan.jobs, flags.job, flags.runner, own_program());
-    std::printf("%s: %s\n", flags.job.c_str(), fault.empty() ? "done" : fault.c_str());
+    print("%s: %s\n", flags.job.c_str(), fault.empty() ? "done" : fault.c_str());
     return;
   }
   ensure_output_folder(plan.options.out);
   if (!flags.report_only) write_plan(plan);
   if (flags.plan_only) {
     remove_unsettled_records(plan.options.out, plan.jobs, flags.runner.retry_failed);
-    std::printf("%s/plan.json: %zu jobs\n", plan.options.out.c_str(), plan.jobs.size());
+    print("%s/plan.json: %zu jobs\n", plan.options.out.c_str(), plan.jobs.size());
     return;
   }
   if (!flags.report_only) {
@@ -115,20 +116,23 @@ void add_benchmark(CLI::App& app, Common& common) {
   command->add_option("--methods", o.methods, methods + ", or the suite's own (default: all but gaussian_no_anchor)")
       ->delimiter(',');
   command->add_option("--sequences", o.sequences, "names, such as icl_1,augm_3 (default: all)")->delimiter(',');
-  command->add_option("--runs", o.runs, "runs of each method on each sequence, each with a seed of its own");
+  add_number(command, "--runs", o.runs, {.least = 1, .most = 10000},
+             "runs of each method on each sequence, each with a seed of its own");
   command->add_option("--size", o.size, "WIDTHxHEIGHT of stand-ins [px]");
   command->add_option("--mapping", o.mapping,
                       "every: maps of every tenth frame of the tested sequences, as in the paper; split: of other "
                       "sequences than the tested one");
   command->add_flag("--quick", o.quick, "200 frames a sequence and short training");
-  command->add_option("--seed", o.seed, "seed of stand-ins and, with the run's number added, of the methods");
+  add_number(command, "--seed", o.seed, {}, "seed of stand-ins and, with the run's number added, of the methods");
   command->add_option("--cache", o.cache,
                       "folder of stand-ins, shared by benchmarks (default: ODOSPLAT_CACHE_DIR, else "
                       "~/.cache/odosplat, each with /stand-ins)");
-  command->add_option("--jobs", r.jobs, "processes at a time, 0 = one a core")->check(CLI::NonNegativeNumber);
-  command->add_option("--time-limit", r.time_limit, "a job is stopped after this time [s]")->check(CLI::PositiveNumber);
-  command->add_option("--memory-limit", r.memory_limit, "a job is stopped at this resident size [MB]")
-      ->check(CLI::PositiveNumber);
+  add_number(command, "--jobs", r.jobs, {.least = 0, .most = 1024, .word = "auto"},
+             "processes at a time; 0 or auto: one per core");
+  add_number(command, "--time-limit", r.time_limit, {.least = 0.0, .most = 1e8, .least_excluded = true},
+             "a job is stopped after this time [s]");
+  add_number(command, "--memory-limit", r.memory_limit, {.least = 0.0, .most = 1e9, .least_excluded = true},
+             "a job is stopped at this resident size [MB]");
   command->add_flag("--retry-failed", r.retry_failed, "run jobs again that failed before");
   command->add_flag("--plan", flags->plan_only, "only write OUT/plan.json, for a scheduler of one's own");
   command->add_option("--job", flags->job, "run one job of OUT/plan.json, by its id");

@@ -10,6 +10,7 @@
 #include "benchmark/checksum.hpp"
 #include "check_report.hpp"
 #include "cloud_files.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/eval/convention_check.hpp"
@@ -118,28 +119,27 @@ std::string checksum_of(const Sequence& sequence) {
 void print_depth(const Sequence& sequence, const ConventionReport& report, const RegistrationReport& registration) {
   const std::string gap =
       std::to_string(report.gap) + (report.max_gap > report.gap ? " to " + std::to_string(report.max_gap) : "");
-  std::printf("depth of one image reprojected into another %s frames on, %d pairs%s\n", gap.c_str(), report.pairs,
-              report.gap_reduced ? " (too little overlaps farther apart)" : "");
-  std::printf("%s", convention_table(report, sequence.camera()).c_str());
-  std::printf("%s\n", report.verdict.c_str());
-  std::printf("%s\n", registration.text.c_str());
+  print("depth of one image reprojected into another %s frames on, %d pairs%s\n", gap.c_str(), report.pairs,
+        report.gap_reduced ? " (too little overlaps farther apart)" : "");
+  print("%s", convention_table(report, sequence.camera()).c_str());
+  print("%s\n", report.verdict.c_str());
+  print("%s\n", registration.text.c_str());
 }
 
 void print_cloud(const Sequence& sequence, const CloudCheckReport& report) {
-  std::printf(
-      "patches of one image carried by the cloud into another %d frames on, %d pairs; 0: alike, 1: no relation\n",
-      report.gap, report.pairs);
-  std::printf("%s", cloud_table(report, sequence.camera()).c_str());
+  print("patches of one image carried by the cloud into another %d frames on, %d pairs; 0: alike, 1: no relation\n",
+        report.gap, report.pairs);
+  print("%s", cloud_table(report, sequence.camera()).c_str());
   if (report.fit) {
     const CloudFit& fit = *report.fit;
-    std::printf(
+    print(
         "measured by %d patches: cloud %.4f +- %.4f times too large, off by %.3f +- %.3f m, turned by %.2f +- %.2f "
         "deg, fx %.1f +- %.1f px; patches lie %.2f px aside as declared, %.2f px with all of these\n",
         fit.patches, 1.0 / fit.scale.value, fit.scale.sigma / (fit.scale.value * fit.scale.value), fit.offset_m.value,
         fit.offset_m.sigma, fit.turn_deg.value, fit.turn_deg.sigma, fit.focal_px.value, fit.focal_px.sigma,
         fit.error_before_px, fit.error_after_px);
   }
-  std::printf("%s\n", report.verdict.c_str());
+  print("%s\n", report.verdict.c_str());
 }
 
 void run(CheckFlags flags) {
@@ -150,8 +150,8 @@ void run(CheckFlags flags) {
   if (frames.empty() && flags.cloud.empty()) {
     throw InputError(sequence.name(), "has no depth: nothing to check the conventions by; a cloud will do (--cloud)");
   }
-  std::printf("%s: layout %s, %zu images, %zu with depth, %dx%d\n", sequence.name().c_str(), sequence.layout().c_str(),
-              sequence.size(), frames.size(), sequence.camera().width, sequence.camera().height);
+  print("%s: layout %s, %zu images, %zu with depth, %dx%d\n", sequence.name().c_str(), sequence.layout().c_str(),
+        sequence.size(), frames.size(), sequence.camera().width, sequence.camera().height);
   CheckResults results;
   if (!frames.empty()) {
     results.conventions = check_depth(sequence, frames, flags.conventions);
@@ -164,7 +164,7 @@ void run(CheckFlags flags) {
   }
   results.texture = texture_of(sequence);
   const TextureSummary& texture = results.texture;
-  std::printf(
+  print(
       "texture at 320x240: %.1f %% of pixels with a gradient over 8; blocks of 32x32: tenth %.1f, median %.1f, "
       "ninth tenth %.1f %%, %.1f %% of them bare (%d images)\n",
       100.0 * texture.share, 100.0 * texture.block_p10, 100.0 * texture.block_p50, 100.0 * texture.block_p90,
@@ -184,10 +184,12 @@ void add_check(CLI::App& app, Common& common) {
   CLI::Option* cloud = command->add_option(
       "--cloud", flags->cloud,
       std::string(cloud_formats) + ": checks images, poses and cloud against one another, no depth needed");
-  command->add_option("--voxel", flags->voxel, "thin the cloud while it is read: edge of a voxel [m], 0: not")
+  add_number(command, "--voxel", flags->voxel, {.least = 0.0, .most = 1000.0, .word = "off"},
+             "thin the cloud to one point per voxel of this edge [m]; 0 or off: as it is")
       ->needs(cloud);
-  command->add_option("--gap", flags->conventions.gap, "frames between the two images of a pair with depth");
-  command->add_option("--pairs", flags->conventions.pairs, "pairs of images with depth");
+  add_number(command, "--gap", flags->conventions.gap, {.least = 1},
+             "frames between the two images of a pair with depth");
+  add_number(command, "--pairs", flags->conventions.pairs, {.least = 1, .most = 100000}, "pairs of images with depth");
   command->add_option("--json", flags->json, "file to write verdict, findings and a checksum of the data to");
   command->final_callback([flags] { run(*flags); });
 }

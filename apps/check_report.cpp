@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
+
 namespace odosplat::apps {
 namespace {
 
@@ -106,7 +108,7 @@ std::string check_json(const Sequence& sequence, const CheckResults& results, co
       {"texture_share", results.texture.share},
       {"texture_bare_blocks", results.texture.bare_blocks},
       {"checksum", checksum}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace odosplat::apps

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cloud_files.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
@@ -84,7 +85,7 @@ void run(const CloudFlags& flags) {
       flags.from.empty() ? cloud_of_sequences(flags) : read_thinned(flags.from, flags.cloud.voxel, origin);
   if (flags.remove_outliers) cloud = without_outliers(cloud);
   write_point_cloud(flags.out, cloud, notes_of(origin));
-  std::printf("%s: %zu points\n", flags.out.c_str(), cloud.size());
+  print("%s: %zu points\n", flags.out.c_str(), cloud.size());
 }
 
 }  // namespace
@@ -101,18 +102,18 @@ void add_cloud(CLI::App& app, Common& common) {
   for (const char* of_sequence : {"--layout", "--camera", "--max-image-pixels"})
     from->excludes(command->get_option(of_sequence));
   command->add_option("--out", flags->out, "cloud to write (PLY)")->required();
-  from->excludes(command->add_option("--every", flags->every, "use every Nth frame")->check(CLI::PositiveNumber));
+  from->excludes(add_number(command, "--every", flags->every, {.least = 1}, "use every Nth frame"));
   from->excludes(command->add_option("--frames", flags->frames, frames_help));
-  command->add_option("--voxel", flags->cloud.voxel, "edge of the voxels that keep one point each, their mean [m]");
-  command
-      ->add_option("--origin", flags->origin,
-                   "X Y Z [m] taken off every point of --from before it is rounded to single precision, to bring "
-                   "survey coordinates near; take the same off the poses")
-      ->expected(3)
+  add_number(command, "--voxel", flags->cloud.voxel, {.least = 0.0, .most = 1000.0, .least_excluded = true},
+             "edge of the voxels that keep one point each, their mean [m]");
+  add_numbers(command, "--origin", flags->origin, 3, 3, {},
+              "X Y Z [m] taken off every point of --from before it is rounded to single precision, to bring survey "
+              "coordinates near; take the same off the poses")
       ->needs(from);
   command->add_flag("--remove-outliers", flags->remove_outliers, outliers_help);
-  from->excludes(command->add_option("--noise", flags->cloud.noise, "standard deviation of simulated range noise [m]"));
-  from->excludes(command->add_option("--seed", flags->cloud.seed, "seed of the noise"));
+  from->excludes(add_number(command, "--noise", flags->cloud.noise, {.least = 0.0, .most = 1000.0},
+                            "standard deviation of simulated range noise [m]"));
+  from->excludes(add_number(command, "--seed", flags->cloud.seed, {}, "seed of the noise"));
   command->final_callback([flags] { run(*flags); });
 }
 

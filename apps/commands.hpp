@@ -15,6 +15,7 @@ struct Common {
   int threads = 0;     // 0: all cores
   bool profile = false;
   std::string log = "info";
+  std::string config;  // file of flags; empty: none
 };
 
 void add_devices(CLI::App& app, Common& common);

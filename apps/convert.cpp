@@ -33,14 +33,14 @@ void convert_map(const ConvertFlags& flags) {
   const Gaussians gaussians = read_map(flags.in);
   log_info("writing " + std::to_string(gaussians.size()) + " Gaussians");
   write_map(flags.out, gaussians, read_map_notes(flags.in));
-  std::printf("%s: %zu Gaussians\n", flags.out.c_str(), gaussians.size());
+  print("%s: %zu Gaussians\n", flags.out.c_str(), gaussians.size());
 }
 
 void convert_cloud(const ConvertFlags& flags) {
   const PointCloud cloud = read_point_cloud(flags.in);
   log_info("writing " + std::to_string(cloud.size()) + " points");
   write_point_cloud(flags.out, cloud);
-  std::printf("%s: %zu points\n", flags.out.c_str(), cloud.size());
+  print("%s: %zu points\n", flags.out.c_str(), cloud.size());
 }
 
 void run(const ConvertFlags& flags) {

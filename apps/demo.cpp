@@ -6,6 +6,7 @@
 
 #include "demo_world.hpp"
 #include "eval_depth.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
@@ -151,9 +152,9 @@ void run(const Common& common, const std::string& out, const DemoOptions& option
                 report.gaussians, report.iterations, report.iterations_per_second, rows[0].depth.psnr_db);
   text += line;
   write_file_atomically(out + "/table.txt", text);
-  std::printf("%s", text.c_str());
-  std::printf("%s: map.png, trajectory.png, compare.png, errors.png, table.txt after %s\n", out.c_str(),
-              format_duration(watch.seconds()).c_str());
+  print("%s", text.c_str());
+  print("%s: map.png, trajectory.png, compare.png, errors.png, table.txt after %s\n", out.c_str(),
+        format_duration(watch.seconds()).c_str());
 }
 
 }  // namespace
@@ -165,9 +166,10 @@ void add_demo(CLI::App& app, Common& common) {
   auto size = std::make_shared<std::string>("320x240");
   command->add_option("--out", *out, "folder for everything the demo makes")->required();
   command->add_option("--size", *size, "WIDTHxHEIGHT of the images [px]");
-  command->add_option("--frames", options->frames, "length of the path [frames at 30 a second]");
-  command->add_option("--iterations", options->iterations, "steps of training");
-  command->add_option("--seed", options->seed, "seed of room, tremor and noise");
+  add_number(command, "--frames", options->frames, {.least = 20, .most = 100000},
+             "length of the path [frames at 30 per second]");
+  add_number(command, "--iterations", options->iterations, {.least = 1, .most = 100000000}, "steps of training");
+  add_number(command, "--seed", options->seed, {}, "seed of room, tremor and noise");
   command->final_callback([&common, out, options, size] {
     const Size parsed = parse_size("--size", *size);
     options->width = parsed.width;

@@ -5,6 +5,7 @@
 
 #include "json_text.hpp"
 #include "odosplat/compute/device.hpp"
+#include "odosplat/compute/no_device.hpp"
 #include "support.hpp"
 
 namespace odosplat::apps {
@@ -22,12 +23,12 @@ const char* word_for(compute::DeviceType type) {
 }
 
 void print_table(const std::vector<compute::DeviceInfo>& devices, int chosen) {
-  if (devices.empty()) std::puts("no OpenCL device was found; pocl-opencl-icd serves any CPU");
+  if (devices.empty()) print("no OpenCL device was found; %s\n", compute::no_device_reason().c_str());
   for (const compute::DeviceInfo& d : devices) {
-    std::printf("%c %d  %s  [%s, %u units, %.1f GiB]\n     %s, driver %s, %s\n", d.index == chosen ? '*' : ' ', d.index,
-                d.name.c_str(), word_for(d.type), d.compute_units, d.memory_gib, d.platform.c_str(),
-                d.driver_version.c_str(), d.opencl_version.c_str());
-    if (!d.refusal.empty()) std::printf("     refused: %s\n", d.refusal.c_str());
+    print("%c %d  %s  [%s, %u units, %.1f GiB]\n     %s, driver %s, %s\n", d.index == chosen ? '*' : ' ', d.index,
+          d.name.c_str(), word_for(d.type), d.compute_units, d.memory_gib, d.platform.c_str(), d.driver_version.c_str(),
+          d.opencl_version.c_str());
+    if (!d.refusal.empty()) print("     refused: %s\n", d.refusal.c_str());
   }
 }
 
@@ -47,7 +48,7 @@ void print_json(const std::vector<compute::DeviceInfo>& devices, int chosen) {
                     {"refusal", d.refusal},
                     {"chosen", d.index == chosen}});
   }
-  std::fputs(json_text(list).c_str(), stdout);
+  print("%s", json_text(list).c_str());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "json_text.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/evaluate.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -29,9 +30,9 @@ nlohmann::ordered_json json_of(const Statistics& s) {
 }
 
 void print_row(const char* name, const Statistics& s, double unit, const char* format) {
-  std::printf("%-10s", name);
-  for (const double value : {s.rmse, s.mean, s.median, s.max, s.p99}) std::printf(format, value * unit);
-  std::printf("\n");
+  print("%-10s", name);
+  for (const double value : {s.rmse, s.mean, s.median, s.max, s.p99}) print(format, value * unit);
+  print("\n");
 }
 
 void run(EvalFlags& flags) {
@@ -40,14 +41,13 @@ void run(EvalFlags& flags) {
   const Trajectory estimate = read_trajectory(flags.estimate, flags.estimate_times);
   const Trajectory truth = read_trajectory(flags.truth, flags.truth_times);
   const EvalResult result = evaluate(estimate, truth, flags.options);
-  std::printf("%-10s%12s%12s%12s%12s%12s\n", "", "RMSE", "mean", "median", "max", "99 %");
+  print("%-10s%12s%12s%12s%12s%12s\n", "", "RMSE", "mean", "median", "max", "99 %");
   print_row("ATE [mm]", result.ate_m, 1000.0, "%12.3f");
   print_row("RTE [mm]", result.rte_m, 1000.0, "%12.3f");
   print_row("RRE [deg]", result.rre_deg, 1.0, "%12.4f");
-  std::printf("%zu pairs, coverage %.1f %%, alignment %s", result.pairs, 100.0 * result.coverage,
-              flags.alignment.c_str());
-  if (result.alignment == TrajectoryAlignment::sim3) std::printf(", scale %.6f", result.truth_from_estimate.scale);
-  std::printf("\n");
+  print("%zu pairs, coverage %.1f %%, alignment %s", result.pairs, 100.0 * result.coverage, flags.alignment.c_str());
+  if (result.alignment == TrajectoryAlignment::sim3) print(", scale %.6f", result.truth_from_estimate.scale);
+  print("\n");
   if (flags.json.empty()) return;
   const nlohmann::ordered_json json{{"ate_m", json_of(result.ate_m)},
                                     {"rte_m", json_of(result.rte_m)},
@@ -67,9 +67,11 @@ void add_eval(CLI::App& app, Common& common) {
   command->add_option("EST", flags->estimate, "estimated trajectory (TUM, KITTI or Redwood log)")->required();
   command->add_option("--truth", flags->truth, "true trajectory")->required();
   command->add_option("--align", flags->alignment, "none, se3 or sim3 (Umeyama)");
-  command->add_option("--delta", flags->options.delta, "frames between the two poses of a relative error");
+  add_number(command, "--delta", flags->options.delta, {.least = 1},
+             "frames between the two poses of a relative error");
   command->add_flag("--all-pairs", flags->options.all_pairs, "relative errors from every pose, not every delta-th");
-  command->add_option("--max-time-difference", flags->options.max_time_difference, "between matched poses [s]");
+  add_number(command, "--max-time-difference", flags->options.max_time_difference, {.least = 0.0, .most = 1e6},
+             "between matched poses [s]");
   command->add_option("--times", flags->estimate_times, "times of EST, one a line, for formats without times");
   command->add_option("--truth-times", flags->truth_times, "times of the truth likewise");
   command->add_option("--json", flags->json, "report to write (JSON)");

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "json_text.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/eval/image_metrics.hpp"
@@ -42,12 +43,12 @@ std::vector<std::size_t> judged_frames(const Sequence& sequence, const EvalDepth
 }
 
 void print_row(const char* region, const DepthErrors& e) {
-  std::printf("%-10s%12.2f%12.2f%12.2f%12.2f%11.2f%%", region, 1000.0 * e.median_abs_m, 1000.0 * e.rmse_m,
-              1000.0 * e.p90_m, 1000.0 * e.mean_m, 100.0 * e.valid_share);
+  print("%-10s%12.2f%12.2f%12.2f%12.2f%11.2f%%", region, 1000.0 * e.median_abs_m, 1000.0 * e.rmse_m, 1000.0 * e.p90_m,
+        1000.0 * e.mean_m, 100.0 * e.valid_share);
   if (e.with_sigma > 0)
-    std::printf("%10.1f%%%10.1f%%%10.1f%%", 100.0 * e.within_sigmas[0], 100.0 * e.within_sigmas[1],
-                100.0 * e.within_sigmas[2]);
-  std::printf("\n");
+    print("%10.1f%%%10.1f%%%10.1f%%", 100.0 * e.within_sigmas[0], 100.0 * e.within_sigmas[1],
+          100.0 * e.within_sigmas[2]);
+  print("\n");
 }
 
 nlohmann::ordered_json json_of(const DepthErrors& e) {
@@ -109,22 +110,22 @@ void add_eval_depth(CLI::App& app, Common& common) {
   add_map_flags(command, job->map);
   command->add_option("--method", job->method, method_names());
   add_depth_noise_flag(command, job->depth_noise);
-  command->add_option("--every", job->every, "judge every Nth of the frames")->check(CLI::PositiveNumber);
-  command->add_option("--skip-every", job->skip_every, "leave out frames 0, N, 2N ... the map was made from, 0: none")
-      ->check(CLI::NonNegativeNumber);
+  add_number(command, "--every", job->every, {.least = 1}, "judge every Nth of the frames");
+  add_number(command, "--skip-every", job->skip_every, {.least = 0, .word = "none"},
+             "leave out frames 0, N, 2N ... the map was made from; 0 or none: leave out none");
   command->add_option("--json", job->json, "report to write (JSON)");
   command->final_callback([&common, job] {
     if (!job->json.empty()) ensure_output_file(job->json);
     const EvalDepthOutcome o = evaluate_depth(common, *job);
-    std::printf("%-10s%12s%12s%12s%12s%12s", "[mm]", "median", "RMSE", "90 %", "mean", "valid");
-    if (o.all.with_sigma > 0) std::printf("%11s%11s%11s", "1 sigma", "2 sigma", "3 sigma");
-    std::printf("\n");
+    print("%-10s%12s%12s%12s%12s%12s", "[mm]", "median", "RMSE", "90 %", "mean", "valid");
+    if (o.all.with_sigma > 0) print("%11s%11s%11s", "1 sigma", "2 sigma", "3 sigma");
+    print("\n");
     print_row("all", o.all);
     print_row("selected", o.selected);
     print_row("edges", o.edges);
-    std::printf("%d frames", o.frames);
-    if (std::isfinite(o.psnr_db)) std::printf(", PSNR %.2f dB, SSIM %.4f", o.psnr_db, o.ssim);
-    std::printf("\n");
+    print("%d frames", o.frames);
+    if (std::isfinite(o.psnr_db)) print(", PSNR %.2f dB, SSIM %.4f", o.psnr_db, o.ssim);
+    print("\n");
     if (job->json.empty()) return;
     nlohmann::ordered_json json{
         {"all", json_of(o.all)}, {"selected", json_of(o.selected)}, {"edges", json_of(o.edges)}, {"frames", o.frames}};

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
 #include "map_quality_json.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -61,51 +62,44 @@ MapInfo read_info(const std::string& path) {
   return info;
 }
 
-/// Without what would command a terminal: comments are other people's.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  return text;
-}
-
 void print_quality(const MapQuality& q) {
-  std::printf("quality       %s\n", printable(q.verdict).c_str());
-  std::printf("  images      %d, median PSNR %.2f dB, %d disagree with the rest\n", q.images, q.psnr_db, q.odd_images);
+  print("quality       %s\n", q.verdict.c_str());
+  print("  images      %d, median PSNR %.2f dB, %d disagree with the rest\n", q.images, q.psnr_db, q.odd_images);
   if (q.depth_error_m >= 0.0) {
-    std::printf("  depth       %.1f mm off the cloud's (%.2f %% of it), median of the images' medians\n",
-                1000.0 * q.depth_error_m, 100.0 * q.depth_error_share);
+    print("  depth       %.1f mm off the cloud's (%.2f %% of it), median of the images' medians\n",
+          1000.0 * q.depth_error_m, 100.0 * q.depth_error_share);
   } else {
-    std::printf("  depth       not compared with a cloud\n");
+    print("  depth       not compared with a cloud\n");
   }
-  std::printf("  cloud       %.1f %% of it in no image, the rest in %.0f images (median)\n",
-              100.0 * q.coverage.unseen_share, q.coverage.images_a_point);
-  std::printf("  directions ");
+  print("  cloud       %.1f %% of it in no image, the rest in %.0f images (median)\n", 100.0 * q.coverage.unseen_share,
+        q.coverage.images_a_point);
+  print("  directions ");
   for (std::size_t k = 0; k < direction_names.size(); ++k)
-    std::printf(" %s %.0f %%", direction_names[k], 100.0 * q.coverage.directions[k]);
-  std::printf(" looked in by an image\n");
+    print(" %s %.0f %%", direction_names[k], 100.0 * q.coverage.directions[k]);
+  print(" looked in by an image\n");
 }
 
-void print(const std::string& path, const MapInfo& info) {
-  std::printf("%s\n", path.c_str());
-  std::printf("Gaussians     %zu, colours of SH degree %d\n", info.gaussians, info.sh_degree);
-  std::printf("bytes         %ju\n", info.bytes);
+void print_info(const std::string& path, const MapInfo& info) {
+  print("%s\n", path.c_str());
+  print("Gaussians     %zu, colours of SH degree %d\n", info.gaussians, info.sh_degree);
+  print("bytes         %ju\n", info.bytes);
   const Eigen::Vector3f size = info.most - info.least;
-  std::printf("bounds [m]    %.2f %.2f %.2f to %.2f %.2f %.2f (%.2f x %.2f x %.2f)\n", info.least.x(), info.least.y(),
-              info.least.z(), info.most.x(), info.most.y(), info.most.z(), size.x(), size.y(), size.z());
-  std::printf("blend order   %s\n", info.order == BlendOrder::distance ? "distance" : "depth");
+  print("bounds [m]    %.2f %.2f %.2f to %.2f %.2f %.2f (%.2f x %.2f x %.2f)\n", info.least.x(), info.least.y(),
+        info.least.z(), info.most.x(), info.most.y(), info.most.z(), size.x(), size.y(), size.z());
+  print("blend order   %s\n", info.order == BlendOrder::distance ? "distance" : "depth");
   if (info.sigma) {
-    std::printf("sigma         spread %.3g, slope %.3g px, share of depth %.3g, open %.3g\n", info.sigma->spread,
-                info.sigma->slope_px, info.sigma->depth_share, info.sigma->open_share);
+    print("sigma         spread %.3g, slope %.3g px, share of depth %.3g, open %.3g\n", info.sigma->spread,
+          info.sigma->slope_px, info.sigma->depth_share, info.sigma->open_share);
   } else {
-    std::printf("sigma         not calibrated\n");
+    print("sigma         not calibrated\n");
   }
-  std::printf("places        %zu\n", info.places);
+  print("places        %zu\n", info.places);
   if (info.quality) {
     print_quality(*info.quality);
   } else {
-    std::printf("quality       unknown: the file does not say (only train measures it)\n");
+    print("quality       unknown: the file does not say (only train measures it)\n");
   }
-  for (const std::string& line : info.settings) std::printf("  %s\n", printable(line).c_str());
+  for (const std::string& line : info.settings) print("  %s\n", line.c_str());
 }
 
 nlohmann::ordered_json json_of(const MapInfo& info) {
@@ -131,11 +125,8 @@ nlohmann::ordered_json json_of(const MapInfo& info) {
 void run(const MapInfoFlags& flags) {
   if (!flags.json.empty()) ensure_output_file(flags.json);
   const MapInfo info = read_info(flags.map);
-  print(flags.map, info);
-  // Comments of other programs' files may be in any encoding.
-  if (!flags.json.empty())
-    write_file_atomically(flags.json,
-                          json_of(info).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  print_info(flags.map, info);
+  if (!flags.json.empty()) write_file_atomically(flags.json, json_text(json_of(info)));
 }
 
 }  // namespace

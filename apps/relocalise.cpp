@@ -9,6 +9,7 @@
 
 #include "json_text.hpp"
 #include "map_views.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
@@ -170,13 +171,13 @@ void run(const Common& common, const RelocaliseJob& job) {
   progress.finish();
   if (opened.device) print_profile(common, *opened.device);
   const Summary s = summarise(rows);
-  std::printf("%zu places of %zu, rendered in %.2f s\n", kept, places.size(), index_s);
-  std::printf("%d views: %d found, %d of them within %.0f cm and %.0f deg (%.1f %%), %d beyond %.0f cm; %d refused\n",
-              s.views, s.found, s.good, 100.0 * good_m, good_deg, 100.0 * s.good / s.views, s.wrong, 100.0 * wrong_m,
-              s.refused);
-  std::printf("a view: %.3f s (95 %%: %.3f, most: %.3f); CPU of all threads: %.3f s (95 %%: %.3f, most: %.3f)\n",
-              percentile(s.seconds, 50.0), percentile(s.seconds, 95.0), s.seconds.back(),
-              percentile(s.cpu_seconds, 50.0), percentile(s.cpu_seconds, 95.0), s.cpu_seconds.back());
+  print("%zu places of %zu, rendered in %.2f s\n", kept, places.size(), index_s);
+  print("%d views: %d found, %d of them within %.0f cm and %.0f deg (%.1f %%), %d beyond %.0f cm; %d refused\n",
+        s.views, s.found, s.good, 100.0 * good_m, good_deg, 100.0 * s.good / s.views, s.wrong, 100.0 * wrong_m,
+        s.refused);
+  print("a view: %.3f s (95 %%: %.3f, most: %.3f); CPU of all threads: %.3f s (95 %%: %.3f, most: %.3f)\n",
+        percentile(s.seconds, 50.0), percentile(s.seconds, 95.0), s.seconds.back(), percentile(s.cpu_seconds, 50.0),
+        percentile(s.cpu_seconds, 95.0), s.cpu_seconds.back());
   if (job.json.empty()) return;
   nlohmann::ordered_json json{{"views", s.views},
                               {"found", s.found},
@@ -202,14 +203,14 @@ void add_relocalise(CLI::App& app, Common& common) {
   add_map_flags(command, job->map);
   command->add_option("--method", job->method, "gaussian, paper or interpolation");
   command->add_option("--places", job->places, places_help);
-  command->add_option("--views", job->views, "random frames to look up")->check(CLI::PositiveNumber);
-  command->add_option("--skip-every", job->skip_every, "leave out frames 0, N, 2N ... the map was made from, 0: none")
-      ->check(CLI::NonNegativeNumber);
+  add_number(command, "--views", job->views, {.least = 1}, "random frames to look up");
+  add_number(command, "--skip-every", job->skip_every, {.least = 0, .word = "none"},
+             "leave out frames 0, N, 2N ... the map was made from; 0 or none: leave out none");
   command
       ->add_option("--without-half", job->map.without_half,
                    "delete the half of the map on that side, and look up frames that showed mostly it")
       ->check(CLI::IsMember({"+x", "-x", "+y", "-y", "+z", "-z"}));
-  command->add_option("--seed", job->seed, "seed of the choice of frames");
+  add_number(command, "--seed", job->seed, {}, "seed of the choice of frames");
   command->add_option("--json", job->json, "report to write (JSON)");
   command->final_callback([&common, job] { run(common, *job); });
 }

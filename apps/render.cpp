@@ -49,6 +49,7 @@ Wanted parse_what(const std::string& text) {
       throw InputError("--what", "must be some of color,depth,alpha,sigma, is " + text);
     }
   }
+  if (text.empty()) throw InputError("--what", "must be some of color,depth,alpha,sigma, is empty");
   return wanted;
 }
 
@@ -84,7 +85,7 @@ void run(const Common& common, const RenderFlags& flags) {
   }
   progress.finish();
   if (opened.device) print_profile(common, *opened.device);
-  std::printf("%s: %zu views\n", flags.out.c_str(), poses.size());
+  print("%s: %zu views\n", flags.out.c_str(), poses.size());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdint>
 
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 
 namespace odosplat::apps {
@@ -26,10 +27,8 @@ void add_layout_flags(CLI::App* command, SequenceFlags& flags) {
 }
 
 void add_image_limit_flag(CLI::App* command, SequenceOptions& options) {
-  command
-      ->add_option("--max-image-pixels", options.max_image_pixels,
-                   "refuse images of more pixels than this before they are decoded")
-      ->check(CLI::Range(std::int64_t{1}, ImageLimit::most_pixels));
+  add_number(command, "--max-image-pixels", options.max_image_pixels, {.least = 1, .most = ImageLimit::most_pixels},
+             "refuse images of more pixels than this before they are decoded");
 }
 
 Sequence open_sequence(const SequenceFlags& flags) { return Sequence::open(flags.path, flags.options); }

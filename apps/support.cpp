@@ -5,21 +5,27 @@
 #include <semaphore.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <exception>
+#include <filesystem>
+#include <new>
 #include <thread>
 
+#include "command_line.hpp"
+#include "odosplat/compute/build_notice.hpp"
 #include "odosplat/compute/device.hpp"
 #include "odosplat/compute/program.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
-#include "odosplat/core/parallel.hpp"
+#include "odosplat/core/terminal_text.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -54,58 +60,44 @@ void end_when_interrupted() {
   std::_Exit(exit_interrupted);
 }
 
-int fail(int code, const char* what) {
-  std::fprintf(stderr, "odosplat: %s\n", what);
+int fail(int code, const std::string& what) {
+  std::fprintf(stderr, "odosplat: %s\n", what.c_str());
   return code;
 }
 
 }  // namespace
 
-CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& help) {
-  CLI::App* command = app.add_subcommand(name, help);
-  command->option_defaults()->always_capture_default();
-  command->add_option(
-      "--device", common.device,
-      "OpenCL device: index or part of a name (default: ODOSPLAT_DEVICE, else first GPU, else first CPU)");
-  command->add_option("--threads", common.threads, "CPU threads, 0 = all cores")->check(CLI::NonNegativeNumber);
-  command->add_flag("--profile", common.profile, "print the device's time, stage by stage and kernel by kernel");
-  command->add_option("--log", common.log, "debug, info, warning or off");
-  command->set_config("--config", "", "read flags from a TOML file (flag = value)");
-  command->parse_complete_callback([&common] {
-    set_log_level(common.log);
-    if (common.threads > 0) {
-      set_threads(common.threads);
-      compute::set_cpu_threads(common.threads);
-    }
-  });
-  return command;
-}
-
 int run_program(CLI::App& app, int argc, char** argv) {
   catch_interrupts();
+  if (app.get_name().empty()) app.name(std::filesystem::path(argv[0]).filename().string());
   try {
-    app.parse(argc, argv);
+    try {
+      parse_command_line(app, {argv + std::min(argc, 1), argv + argc});
+    } catch (const CLI::Success& e) {  // --help, --version
+      app.exit(e);
+    }
+    finish_output();
     // Whatever was written is whole; but whoever runs a list of commands wants that to stop, too.
     if (interrupted()) throw Interrupted();
     return 0;
-  } catch (const CLI::Success& e) {  // --help, --version
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
-    return fail(exit_bad_input, e.what());
   } catch (const InputError& e) {
-    return fail(exit_bad_input, e.what());
+    return fail(exit_bad_input, printable_line(e.what()));
   } catch (const compute::NoSuchDevice& e) {
-    return fail(exit_bad_input, e.what());
+    return fail(exit_bad_input, printable_line(e.what()));
   } catch (const Interrupted& e) {
-    return fail(exit_interrupted, e.what());
+    return fail(exit_interrupted, printable_line(e.what()));
+  } catch (const std::bad_alloc&) {
+    return fail(exit_internal, "there is too little memory");
   } catch (const std::exception& e) {
-    return fail(exit_internal, e.what());
+    return fail(exit_internal, printable_text(e.what()));  // a compiler's log has lines
   }
 }
 
 compute::Context open_device(const Common& common) {
   compute::Context context = compute::Context::open(common.device);
   context.set_profiling(common.profile);
+  compute::set_build_notice(
+      context, [] { log_info("building OpenCL kernels, once per device and version: the next start is quick"); });
   log_info("device " + context.device().name + " (" + context.device().platform + ")");
   if (const std::string fault = compute::program_cache_fault(); !fault.empty()) log_warning(fault);
   return context;
@@ -113,14 +105,14 @@ compute::Context open_device(const Common& common) {
 
 void print_profile(const Common& common, const compute::Context& context) {
   if (!common.profile) return;
-  const auto print = [](const std::string& name, long launches, double milliseconds) {
+  const auto print_time = [](const std::string& name, long launches, double milliseconds) {
     std::fprintf(stderr, "%-32s %10ld %12.1f %10.3f\n", name.c_str(), launches, milliseconds,
                  milliseconds / static_cast<double>(launches));
   };
   std::fprintf(stderr, "%-32s %10s %12s %10s\n", "stage, its kernels", "launches", "total ms", "ms each");
   for (const compute::StageTime& stage : context.stage_times()) {
-    print(stage.stage, stage.launches, stage.milliseconds);
-    for (const compute::KernelTime& t : stage.kernels) print("  " + t.name, t.launches, t.milliseconds);
+    print_time(stage.stage, stage.launches, stage.milliseconds);
+    for (const compute::KernelTime& t : stage.kernels) print_time("  " + t.name, t.launches, t.milliseconds);
   }
 }
 
@@ -146,11 +138,15 @@ double peak_memory_mb() {
 }
 
 Size parse_size(const std::string& flag, const std::string& text) {
+  constexpr int most = 32768;
   Size size;
-  char end = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &end) != 2 || size.width < 1 || size.height < 1 ||
-      size.width > 32768 || size.height > 32768) {
-    throw InputError(flag, "must be WIDTHxHEIGHT in pixels, is " + text);
+  const char* end = text.data() + text.size();
+  const auto [x, width_error] = std::from_chars(text.data(), end, size.width);
+  const bool is_pair = width_error == std::errc() && x != end && *x == 'x';
+  const auto [rest, height_error] = std::from_chars(is_pair ? x + 1 : end, end, size.height);
+  if (!is_pair || height_error != std::errc() || rest != end || std::min(size.width, size.height) < 1 ||
+      std::max(size.width, size.height) > most) {
+    throw InputError(flag, "must be WIDTHxHEIGHT in pixels, 1x1 to 32768x32768, is " + text);
   }
   return size;
 }

@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "odosplat/compute/context.hpp"
+#include "output.hpp"
 
 namespace odosplat::apps {
 
@@ -15,7 +16,8 @@ namespace odosplat::apps {
 CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& help);
 
 /// What main() does once the commands are declared: parses, runs the chosen one, and turns errors into one line on
-/// standard error and the exit status: 0 done, 1 internal failure, 2 bad usage or input, 130 interrupted.
+/// standard error and the exit status: 0 done, 1 internal failure, 2 bad usage or input (standard output that cannot be
+/// written is that too), 130 interrupted.
 int run_program(CLI::App& app, int argc, char** argv);
 
 /// Opens the device that was asked for and says which one it is on the log.

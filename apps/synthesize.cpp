@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -38,11 +39,11 @@ struct SynthesizeFlags {
 void print_list() {
   for (const std::string& name : built_in_scenes()) {
     const SceneDescription scene = built_in_scene(name);
-    std::printf("%s: %.1f x %.1f x %.1f m\n", name.c_str(), static_cast<double>(scene.size.x()),
-                static_cast<double>(scene.size.y()), static_cast<double>(scene.size.z()));
+    print("%s: %.1f x %.1f x %.1f m\n", name.c_str(), static_cast<double>(scene.size.x()),
+          static_cast<double>(scene.size.y()), static_cast<double>(scene.size.z()));
     for (const WalkDescription& walk : scene.walks) {
-      std::printf("  %-10s %5d frames  %6.2f s  %6.2f m\n", walk.name.c_str(), walk.options.frames,
-                  walk.options.frames / walk.options.fps, walk.options.length_m);
+      print("  %-10s %5d frames  %6.2f s  %6.2f m\n", walk.name.c_str(), walk.options.frames,
+            walk.options.frames / walk.options.fps, walk.options.length_m);
     }
   }
 }
@@ -110,8 +111,8 @@ void write_sequence(const SynthesizeFlags& flags, const SceneDescription& descri
     return world;
   };
   const int rendered = write_synthetic_sequence(sequence, checked_scene);
-  std::printf("%s: %zu frames, %.2f m, %d rendered in %.1f s\n", flags.out.c_str(), sequence.truth.size(),
-              travelled_length(sequence.truth), rendered, watch.seconds());
+  print("%s: %zu frames, %.2f m, %d rendered in %.1f s\n", flags.out.c_str(), sequence.truth.size(),
+        travelled_length(sequence.truth), rendered, watch.seconds());
 }
 
 void write_cloud(const SynthesizeFlags& flags, const SceneDescription& description, const Scene& scene) {
@@ -122,7 +123,7 @@ void write_cloud(const SynthesizeFlags& flags, const SceneDescription& descripti
   log_info("scanning " + description.name + " from " + std::to_string(places.size()) + " places");
   const PointCloud cloud = voxel_downsample(simulate_lidar(scene, places, lidar), flags.voxel);
   write_point_cloud(flags.cloud, cloud);
-  std::printf("%s: %zu points from %zu scans\n", flags.cloud.c_str(), cloud.size(), places.size());
+  print("%s: %zu points from %zu scans\n", flags.cloud.c_str(), cloud.size(), places.size());
 }
 
 void run(const SynthesizeFlags& flags) {
@@ -153,13 +154,20 @@ void add_synthesize(CLI::App& app, Common& common) {
   command->add_option("--out", flags->out, "folder for the sequence; frames that are there are kept");
   command->add_option("--cloud", flags->cloud, "PLY file for what a lidar sees of the scene");
   command->add_option("--size", flags->size, "WIDTHxHEIGHT of the images [px]");
-  command->add_option("--frames", flags->frames, "render the first so many alone; 0: all");
-  command->add_option("--seed", flags->seed, "seed of textures and noise");
-  command->add_option("--voxel", flags->voxel, "edge of the cloud's voxels, a point each [m]");
-  command->add_option("--noise", flags->noise, "standard deviation of colours, 0..1; else the walk's");
-  command->add_option("--exposure-swing", flags->exposure_swing, "auto exposure's share of gain; else the walk's");
-  command->add_option("--shutter-ms", flags->shutter_ms, "shutter time: motion blur [ms]; else the walk's");
-  command->add_option("--readout-ms", flags->readout_ms, "first to last row: rolling shutter [ms]; else the walk's");
+  add_number(command, "--frames", flags->frames, {.least = 0, .word = "all"},
+             "render only the first so many; 0 or all: all of them");
+  add_number(command, "--seed", flags->seed, {}, "seed of textures and noise");
+  add_number(command, "--voxel", flags->voxel, {.least = 0.0, .most = 1000.0, .least_excluded = true},
+             "edge of the cloud's voxels, a point each [m]");
+  const char* of_walk = "walk";  // as the walk's description has it
+  add_number(command, "--noise", flags->noise, {.least = 0.0, .most = 0.5, .word = of_walk},
+             "standard deviation of colours, which are 0 to 1; walk: as the walk has it");
+  add_number(command, "--exposure-swing", flags->exposure_swing, {.least = 0.0, .most = 0.9, .word = of_walk},
+             "share of the gain by which auto exposure changes it");
+  const Bounds<double> milliseconds{.least = 0.0, .most = 1000.0, .word = of_walk};
+  add_number(command, "--shutter-ms", flags->shutter_ms, milliseconds, "shutter time: motion blur [ms]");
+  add_number(command, "--readout-ms", flags->readout_ms, milliseconds,
+             "time from the first row to the last: rolling shutter [ms]");
   command->add_flag("--kinect", flags->kinect, "depth as a Kinect measures it; else true depth");
   command->final_callback([flags] { run(*flags); });
 }

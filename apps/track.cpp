@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "frame_reader.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
@@ -27,6 +28,7 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence, const FrameRange& 
       if (!(text >> value))
         throw InputError("--start", "must be truth, auto or \"tx ty tz qx qy qz qw\", is " + job.start);
     }
+    if (std::string more; text >> more) throw InputError("--start", "has more than seven numbers: " + job.start);
     const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     if (!(q.norm() > 1e-6)) throw InputError("--start", "the quaternion has length zero");
     return {q, Eigen::Vector3d(v[0], v[1], v[2])};
@@ -284,15 +286,15 @@ void add_track(CLI::App& app, Common& common) {
                       "what the window makes of the map's depth: fixed, pose_aware, prior, pose_aware_prior, free or "
                       "interval (default: the method's)");
   add_depth_noise_flag(command, job->depth_noise);
-  command->add_option("--seed", job->seed, "seed of the pixel selector and of depth noise");
+  add_number(command, "--seed", job->seed, {}, "seed of the pixel selector and of depth noise");
   command->final_callback([&common, job, anchor, relocalise] {
     job->relocalise = *relocalise == "on";
     if (!anchor->empty()) job->anchor = *anchor == "on";
     const TrackOutcome o = track_sequence(common, *job);
-    std::printf("%s: %d of %d frames posed, %d lost, %d keyframes, %.1f ms a frame (95 %%: %.1f ms)\n",
-                job->out.c_str(), o.posed, o.frames, o.lost, o.keyframes, o.median_ms, o.p95_ms);
+    print("%s: %d of %d frames posed, %d lost, %d keyframes, %.1f ms a frame (95 %%: %.1f ms)\n", job->out.c_str(),
+          o.posed, o.frames, o.lost, o.keyframes, o.median_ms, o.p95_ms);
     if (job->realtime) {
-      std::printf("in real time: %d of %d frames dropped\n", o.dropped, o.dropped + o.frames);
+      print("in real time: %d of %d frames dropped\n", o.dropped, o.dropped + o.frames);
     }
   });
 }

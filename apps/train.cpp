@@ -11,6 +11,7 @@
 #include "cloud_files.hpp"
 #include "json_text.hpp"
 #include "map_quality_json.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
@@ -91,7 +92,7 @@ bool save(const TrainJob& job, const Trainer& trainer) {
 /// Steps until all are done, with checkpoints. After Ctrl-C a checkpoint and Interrupted.
 void run(const TrainJob& job, Trainer& trainer) {
   const SavesWhenInterrupted saves;
-  Progress progress("train", trainer.options().iterations, trainer.iteration());
+  Progress progress("train", trainer.options().iterations);
   while (!trainer.done() && !interrupted()) {
     const TrainingStep step = trainer.step();
     progress.update(step.iteration, progress_text(step, trainer.report()));
@@ -244,59 +245,48 @@ void add_train(CLI::App& app, Common& common) {
   add_image_limit_flag(command, job->sequence_options);
   command->add_option("--camera", job->sequence_options.camera_file, "camera.yaml to use instead of their own");
   command->add_option("--cloud", job->cloud, cloud_formats)->required();
-  command->add_option("--voxel", job->voxel, "thin the cloud to one point a voxel of this edge [m], 0 = as it is");
+  add_number(command, "--voxel", job->voxel, {.least = 0.0, .most = 1000.0, .word = "off"},
+             "thin the cloud to one point per voxel of this edge [m]; 0 or off: as it is");
   command->add_flag("--remove-outliers", job->remove_outliers, outliers_help);
   command->add_option("--out", job->out, "map to write (PLY, or .splat)")->required();
-  command->add_option("--every", job->every, "train on every Nth frame")->check(CLI::PositiveNumber);
+  add_number(command, "--every", job->every, {.least = 1}, "train on every Nth frame");
   command->add_option("--frames", job->frames, frames_help);
   command->add_option("--preset", job->preset, "default, or paper (the recipe of the paper's code)");
-  command
-      ->add_option("--iterations", job->iterations,
-                   "steps of one image each (default: 4000, and at least 8 an image; paper: 20000)")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option(
-          "--budget", job->budget,
-          "most Gaussians: of the cloud's points, and that densification grows to; 0 = one a point, and the preset's "
-          "limit of growth (default: 150000, paper: none)")
-      ->check(CLI::NonNegativeNumber);
+  add_number(command, "--iterations", job->iterations, {.least = 0, .most = 100000000, .word = "preset"},
+             "steps of one image each (preset default: 4000, and at least 8 per image; paper: 20000)");
+  add_number(command, "--budget", job->budget, {.least = 0, .most = 1000000000, .word = "preset"},
+             "most Gaussians: of the cloud's points, and that densification grows to; 0 or preset: one per point, and "
+             "the preset's limit of growth (default: 150000, paper: none)");
   command->add_option(
       "--densify", job->densify,
       "none, relocate (the dead move to where the images need them, and grow to the budget) or split (clone "
       "and split by screen gradient) (default: the preset's)");
   command
       ->add_option("--exposure", job->exposure, "learn the exposure of each image: on or off (default: the preset's)")
-      ->check(CLI::IsMember({"", "on", "off"}));
-  command
-      ->add_option("--depth-weight", job->depth_weight,
-                   "weight of the cloud's depth beside the images (default: the preset's)")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option("--sh-degree", job->sh_degree,
-                   "degree of the colours' spherical harmonics, 0..3 (default: the preset's)")
-      ->check(CLI::Range(0, 3));
+      ->check(CLI::IsMember({"on", "off"}));
+  add_number(command, "--depth-weight", job->depth_weight, {.least = 0.0, .most = 1e6, .word = "preset"},
+             "weight of the cloud's depth beside the images");
+  add_number(command, "--sh-degree", job->sh_degree, {.least = 0, .most = 3, .word = "preset"},
+             "degree of the colours' spherical harmonics, 0 to 3");
   command
       ->add_option("--blend-order", job->blend_order,
                    "what Gaussians are sorted by when they are blended: distance from the camera, which makes better "
                    "maps, or depth, which other programs expect (default: the preset's, depth for a .splat)")
-      ->check(CLI::IsMember({"", "distance", "depth"}));
-  command
-      ->add_option(
-          "--checkpoint-every", job->checkpoint_every,
-          "iterations between checkpoints (OUT.checkpoint, removed at the end), 0 = only at the end and on Ctrl-C, "
-          "which leaves OUT as it was")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::IsMember({"distance", "depth"}));
+  add_number(command, "--checkpoint-every", job->checkpoint_every, {.least = 0, .word = "never"},
+             "iterations between checkpoints (OUT.checkpoint, removed at the end); 0 or never: only at the end and on "
+             "Ctrl-C, which leaves OUT as it was");
   command->add_flag("--resume", job->resume,
                     "go on from OUT.checkpoint if there is one: the same bits as without a stop");
-  command->add_option("--seed", job->seed, "seed of every random choice")->check(CLI::NonNegativeNumber);
+  add_number(command, "--seed", job->seed, {}, "seed of every random choice");
   command->add_option("--report", job->report, "report to write (JSON)");
   command->final_callback([&common, job] {
     const TrainOutcome outcome = train_map(common, *job);
     const TrainingReport& report = outcome.training;
-    std::printf("%s: %zu Gaussians, %d iterations in %s (%.1f it/s), PSNR %.2f dB on the training images\n",
-                job->out.c_str(), report.gaussians, report.iterations, format_duration(report.seconds).c_str(),
-                report.iterations_per_second, report.psnr_db);
-    std::printf("the map is %s\n", outcome.quality.verdict.c_str());
+    print("%s: %zu Gaussians, %d iterations in %s (%.1f it/s), PSNR %.2f dB on the training images\n", job->out.c_str(),
+          report.gaussians, report.iterations, format_duration(report.seconds).c_str(), report.iterations_per_second,
+          report.psnr_db);
+    print("the map is %s\n", outcome.quality.verdict.c_str());
   });
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "map_views.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/near_origin.hpp"
@@ -130,7 +131,7 @@ void run_association(const Common& common, const FrameViewFlags& flags) {
 }  // namespace
 
 void add_view(CLI::App& app, Common& common) {
-  CLI::App* view = app.add_subcommand("view", "figures as PNG and films, without a screen");
+  CLI::App* view = app.add_subcommand("view", "figures (PNG, JPEG, PDF, SVG) and films, without a screen");
   view->require_subcommand(1);
 
   auto map = std::make_shared<MapViewFlags>();
@@ -156,7 +157,7 @@ void add_view(CLI::App& app, Common& common) {
   add_sequence_flags(command, depth->sequence);
   add_map_flags(command, depth->map);
   command->add_option("--method", depth->method, method_names());
-  command->add_option("--frame", depth->frames, "frame number, from 0")->expected(1);
+  add_numbers(command, "--frame", depth->frames, 1, 1, {}, "frame number, from 0");
   command->final_callback([&common, depth] { run_depth(common, *depth); });
 
   auto compare = std::make_shared<FrameViewFlags>();
@@ -165,7 +166,8 @@ void add_view(CLI::App& app, Common& common) {
                           compare->output);
   add_sequence_flags(command, compare->sequence);
   add_map_flags(command, compare->map);
-  command->add_option("--frame", compare->frames, "frame numbers, from 0")->delimiter(',');
+  add_numbers(command, "--frame", compare->frames, 1, most_numbers, {}, "frame numbers, from 0, as in 3,40")
+      ->delimiter(',');
   command->final_callback([&common, compare] { run_compare(common, *compare); });
 
   auto association = std::make_shared<FrameViewFlags>();
@@ -174,7 +176,7 @@ void add_view(CLI::App& app, Common& common) {
                           association->output);
   add_sequence_flags(command, association->sequence);
   add_map_flags(command, association->map);
-  command->add_option("--frame", association->frames, "frame number, from 0")->expected(1);
+  add_numbers(command, "--frame", association->frames, 1, 1, {}, "frame number, from 0");
   command->final_callback([&common, association] { run_association(common, *association); });
 
   add_view_fly(view, common);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "map_views.hpp"
+#include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/near_origin.hpp"
 #include "odosplat/core/progress.hpp"
@@ -75,7 +76,7 @@ void run(const Common& common, const FlyFlags& flags) {
   progress.finish();
   video->commit();
   if (opened.device) print_profile(common, *opened.device);
-  std::printf("%s: %zu frames\n", flags.out.c_str(), count);
+  print("%s: %zu frames\n", flags.out.c_str(), count);
 }
 
 }  // namespace
@@ -89,8 +90,8 @@ void add_view_fly(CLI::App* view, Common& common) {
   command->add_option("--camera", flags->camera, "camera.yaml")->required();
   command->add_option("--out", flags->out, "video to write: .avi (Motion JPEG) or .mp4 (MPEG-4)")->required();
   command->add_option("--size", flags->size, "WIDTHxHEIGHT of the rendered images [px] (default: the camera's)");
-  command->add_option("--fps", flags->fps, "frames a second of the video")->check(CLI::Range(0.1, 1000.0));
-  command->add_option("--step", flags->step, "use every Nth pose")->check(CLI::PositiveNumber);
+  add_number(command, "--fps", flags->fps, {.least = 0.1, .most = 1000.0}, "frames per second of the video");
+  add_number(command, "--step", flags->step, {.least = 1}, "use every Nth pose");
   command->final_callback([&common, flags] { run(common, *flags); });
 }
 

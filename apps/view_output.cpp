@@ -4,20 +4,22 @@
 
 #include <cstdio>
 
-#include "odosplat/io/image_file.hpp"
+#include "odosplat/io/picture_file.hpp"
 
 namespace odosplat::apps {
 
 CLI::App* add_view_kind(CLI::App* parent, Common& common, const char* name, const char* help, ViewOutputFlags& flags) {
   CLI::App* command = add_command(*parent, common, name, help);
-  command->add_option("--out", flags.out, "picture to write (PNG)")->required();
-  command->add_option("--size", flags.size, "WIDTHxHEIGHT of the picture [px] (default: as the figure needs)");
+  command->add_option("--out", flags.out, "picture to write: .png, .jpg, .pdf or .svg")->type_name("FILE")->required();
+  command->add_option("--size", flags.size, "WIDTHxHEIGHT of the picture [px]")
+      ->type_name("WxH")
+      ->default_str("as the figure needs");
   return command;
 }
 
 void save_picture(const ViewOutputFlags& flags, const cv::Mat3b& picture) {
-  write_rgb8(flags.out, picture);
-  std::printf("%s: %dx%d\n", flags.out.c_str(), picture.cols, picture.rows);
+  write_picture(flags.out, picture);
+  print("%s: %dx%d\n", flags.out.c_str(), picture.cols, picture.rows);
 }
 
 }  // namespace odosplat::apps

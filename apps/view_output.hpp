@@ -7,6 +7,7 @@
 #include <string>
 
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/picture_file.hpp"
 #include "support.hpp"
 
 /// What the kinds of `odosplat view` share.
@@ -17,13 +18,14 @@ struct ViewOutputFlags {
   std::string size;  // empty: the figure's own
 };
 
-/// Declares a kind of view that writes a PNG: --out, --size.
+/// Declares a kind of view that writes a picture: --out, --size.
 CLI::App* add_view_kind(CLI::App* parent, Common& common, const char* name, const char* help, ViewOutputFlags& flags);
 
 /// To be called before anything is computed: proves that the file can be written, and sets figure.size if one was
 /// given.
 template <typename Figure>
 void set_size(const ViewOutputFlags& flags, Figure& figure) {
+  check_picture_name(flags.out);
   ensure_output_file(flags.out);
   if (flags.size.empty()) return;
   const Size size = parse_size("--size", flags.size);

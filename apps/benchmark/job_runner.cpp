@@ -14,6 +14,7 @@
 #include "foreign_text.hpp"
 #include "job_outputs.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "support.hpp"
@@ -96,12 +97,13 @@ class Board {
         work_run_ > 0.0 && done < jobs_.size()
             ? ", about " + format_duration(work_left_ * seconds_run_ / work_run_ / at_a_time_) + " left"
             : "";
-    std::fprintf(stderr, "[%zu/%zu] %s: %s%s\n", done, jobs_.size(), job.id.c_str(),
-                 record.fault.empty() ? ("done in " + format_duration(record.seconds) + ", " +
-                                         std::to_string(static_cast<int>(record.peak_memory_mb)) + " MB")
-                                            .c_str()
-                                      : ("FAILED: " + record.fault).c_str(),
-                 left.c_str());
+    const std::string outcome = record.fault.empty()
+                                    ? "done in " + format_duration(record.seconds) + ", " +
+                                          std::to_string(static_cast<int>(record.peak_memory_mb)) + " MB"
+                                    : "FAILED: " + record.fault;
+    const std::string line =
+        "[" + std::to_string(done) + "/" + std::to_string(jobs_.size()) + "] " + job.id + ": " + outcome + left;
+    record.fault.empty() ? log_info(line) : log_warning(line);
   }
   bool settled(const Job& job) const { return through_.count(job.id) > 0 || failed_.count(job.id) > 0; }
   /// The first thing it needs that failed; empty: none.

@@ -68,7 +68,11 @@ std::string error_name(cl_int status) {
 }
 
 void check(cl_int status, const std::string& call, const std::string& device) {
-  if (status != CL_SUCCESS) throw DeviceError(call + ": " + error_name(status) + " (device " + device + ")");
+  if (status == CL_SUCCESS) return;
+  const bool memory =
+      status == CL_MEM_OBJECT_ALLOCATION_FAILURE || status == CL_OUT_OF_HOST_MEMORY || status == CL_INVALID_BUFFER_SIZE;
+  throw DeviceError(call + ": " + error_name(status) + " (device " + device + ")" +
+                    (memory ? "; too little memory: fewer Gaussians or smaller images need less" : ""));
 }
 
 ContextImpl::~ContextImpl() {
@@ -122,7 +126,9 @@ void Context::reset_kernel_times() {
 Memory::Memory(const Context& context, std::size_t bytes)
     : context_(std::shared_ptr<ContextImpl>(context.shared_impl())) {
   cl_int status = CL_SUCCESS;
-  cl_mem memory = clCreateBuffer(context_->context, CL_MEM_READ_WRITE, bytes, nullptr, &status);
+  // On a CPU the memory is taken at once: PoCL else takes it at the first use, and aborts where there is none.
+  const cl_mem_flags flags = CL_MEM_READ_WRITE | (context.is_cpu() ? CL_MEM_ALLOC_HOST_PTR : 0);
+  cl_mem memory = clCreateBuffer(context_->context, flags, bytes, nullptr, &status);
   check(status, "clCreateBuffer of " + std::to_string(bytes) + " bytes", context_->info.name);
   // The deleter holds the context, so that the memory goes first. A failing release has nobody to tell.
   handle_ = std::shared_ptr<_cl_mem>(memory, [keep = context_](cl_mem m) { clReleaseMemObject(m); });

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cstdlib>
 
+#include "odosplat/compute/no_device.hpp"
 #include "odosplat/compute/opencl.hpp"
 
 namespace odosplat::compute {
@@ -78,7 +79,7 @@ DeviceInfo describe(cl_device_id id, const std::string& platform, int index) {
 std::string names_of(const std::vector<DeviceInfo>& devices) {
   std::string names;
   for (const DeviceInfo& d : devices) names += (names.empty() ? "" : ", ") + std::to_string(d.index) + " " + d.name;
-  return names.empty() ? "none; pocl-opencl-icd serves any CPU" : names;
+  return names.empty() ? "none; " + no_device_reason() : names;
 }
 
 const DeviceInfo* first_usable(const std::vector<DeviceInfo>& devices, DeviceType type) {
@@ -93,6 +94,9 @@ const DeviceInfo* first_usable(const std::vector<DeviceInfo>& devices, DeviceTyp
 void set_cpu_threads(int n) { setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(n).c_str(), 1); }
 
 std::vector<FoundDevice> find_devices() {
+  // PoCL aborts where the variable is there and empty.
+  if (const char* folder = std::getenv("POCL_CACHE_DIR"); folder != nullptr && *folder == '\0')
+    unsetenv("POCL_CACHE_DIR");
   cl_uint platform_count = 0;
   if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0) return {};
   std::vector<cl_platform_id> platforms(platform_count);
@@ -130,7 +134,7 @@ const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const st
     for (const DeviceInfo& d : devices) {
       if (!d.refusal.empty()) throw NoSuchDevice("OpenCL device " + d.name + " is refused: " + d.refusal);
     }
-    throw NoSuchDevice("no OpenCL device was found; pocl-opencl-icd serves any CPU");
+    throw NoSuchDevice("no OpenCL device was found; " + no_device_reason());
   }
   const bool is_index = std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
   const DeviceInfo* refused = nullptr;

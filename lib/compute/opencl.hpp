@@ -6,6 +6,7 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 
+#include <functional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -26,6 +27,9 @@ struct ContextImpl {
   cl_command_queue queue = nullptr;
   std::size_t max_work_group = 1;
   bool profile = false;
+  std::function<void()> build_notice;  // empty: none, or it was given
+  double build_notice_after_s = 1.0;
+  double build_s = 0.0;  // that builds have taken so far
   std::vector<KernelTime> times;
   std::unordered_map<std::string, std::size_t> time_index;
 

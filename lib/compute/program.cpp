@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "odosplat/compute/build_watch.hpp"
 #include "odosplat/compute/opencl.hpp"
 #include "odosplat/compute/program_cache.hpp"
 #include "odosplat/kernels/kernels.hpp"
@@ -86,6 +87,7 @@ Program::Program(const Context& context, std::string label, const std::string& t
   program_ = from_binary(c, cache.load(key), all_options);
   if (program_) return;
 
+  const BuildWatch watch(*c);
   const char* source = text.c_str();
   const std::size_t length = text.size();
   cl_int status = CL_SUCCESS;

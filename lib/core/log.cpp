@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/terminal_text.hpp"
 
 namespace odosplat {
 namespace {
@@ -21,9 +22,10 @@ spdlog::logger& logger() {
 
 }  // namespace
 
-void log_debug(const std::string& message) { logger().debug("{}", message); }
-void log_info(const std::string& message) { logger().info("{}", message); }
-void log_warning(const std::string& message) { logger().warn("{}", message); }
+void log_debug(const std::string& message) { logger().debug("{}", printable_line(message)); }
+void log_info(const std::string& message) { logger().info("{}", printable_line(message)); }
+void log_warning(const std::string& message) { logger().warn("{}", printable_line(message)); }
+bool logs_info() { return logger().should_log(spdlog::level::info); }
 
 void set_log_level(const std::string& level) {
   if (level == "debug") {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -51,10 +52,14 @@ void parallel_for(int n, int chunk, const std::function<void(int, int)>& body) {
   } else {
     std::vector<std::thread> pool;
     for (int i = 1; i < workers; ++i) {
-      pool.emplace_back([&] {
-        inside_parallel_for = true;
-        work();
-      });
+      try {
+        pool.emplace_back([&] {
+          inside_parallel_for = true;
+          work();
+        });
+      } catch (const std::system_error&) {
+        break;  // the machine gives no more threads: those there are do the work
+      }
     }
     inside_parallel_for = true;
     work();

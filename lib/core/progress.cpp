@@ -9,6 +9,9 @@
 #include <cstdio>
 #include <utility>
 
+#include "odosplat/core/log.hpp"
+#include "odosplat/core/terminal_text.hpp"
+
 namespace odosplat {
 
 std::string format_duration(double seconds) {
@@ -22,45 +25,59 @@ std::string format_duration(double seconds) {
   return text;
 }
 
-Progress::Progress(std::string what, long total, long before)
-    : what_(std::move(what)),
+std::optional<double> TimeLeft::update(long done, double now) {
+  if (!first_done_) {
+    first_done_ = done;
+    first_time_ = now;
+  }
+  if (done >= total_) return 0.0;
+  const long steps = done - *first_done_;
+  const double seconds = now - first_time_;
+  const bool enough = 100 * steps >= total_ - *first_done_ || seconds >= 20.0;
+  if (steps < 1 || seconds < 3.0 || !enough) return std::nullopt;
+  return seconds * static_cast<double>(total_ - done) / static_cast<double>(steps);
+}
+
+Progress::Progress(std::string what, long total)
+    : what_(printable_line(what)),
       total_(total),
-      before_(before),
+      shown_(logs_info()),
       terminal_(isatty(STDERR_FILENO) == 1),
+      time_left_(total),
       start_(Clock::now()),
       last_print_(start_) {}
 
 Progress::~Progress() { finish(); }
 
 void Progress::update(long done, const std::string& detail) {
+  if (!shown_) return;
   const auto now = Clock::now();
+  const std::optional<double> left = time_left_.update(done, std::chrono::duration<double>(now - start_).count());
   const double since = std::chrono::duration<double>(now - last_print_).count();
-  last_done_ = done;
   const bool last = done >= total_;
   if (terminal_ ? (since >= 0.1 || last) : (done >= next_plain_ || since >= 30.0 || last)) {
     if (!terminal_) next_plain_ = done + std::max(1L, total_ / 10);
     last_print_ = now;
-    print(done, detail);
+    print(done, left ? format_duration(*left) : "-:--", printable_line(detail));
   }
 }
 
-void Progress::print(long done, const std::string& detail) {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 1.0;
-  const std::string left =
-      done > before_
-          ? format_duration(elapsed * static_cast<double>(total_ - done) / static_cast<double>(done - before_))
-          : "-:--";
+void Progress::print(long done, const std::string& left, const std::string& detail) {
+  const std::string numbers = std::to_string(done) + "/" + std::to_string(total_) + "  left " + left;
   if (terminal_) {
-    constexpr int width = 24;
+    // The last column stays free: a terminal goes to the next line when it is filled.
+    const int columns = terminal_columns(STDERR_FILENO) - 1;
+    const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 1.0;
+    const int room = columns - text_columns(what_ + " [] " + numbers + "  " + detail);
+    const int width = std::clamp(room, 10, 24);
     const int filled = std::clamp(static_cast<int>(share * width), 0, width);
     const std::string bar =
         std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(width - filled), '.');
-    std::fprintf(stderr, "\r\033[K%s [%s] %ld/%ld  left %s  %s", what_.c_str(), bar.c_str(), done, total_, left.c_str(),
-                 detail.c_str());
+    const std::string line = what_ + " [" + bar + "] " + numbers + (detail.empty() ? "" : "  " + detail);
+    std::fprintf(stderr, "\r\033[K%s", cut_to_columns(line, columns).c_str());
     line_open_ = true;
   } else {
-    std::fprintf(stderr, "%s %ld/%ld  left %s  %s\n", what_.c_str(), done, total_, left.c_str(), detail.c_str());
+    std::fprintf(stderr, "%s %s  %s\n", what_.c_str(), numbers.c_str(), detail.c_str());
   }
   std::fflush(stderr);
 }

@@ -3,17 +3,34 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace odosplat {
 
-/// Progress of a long job on standard error: a line that is redrawn on a terminal (at most 10 times a second), a plain
-/// line every 10 % or 30 s elsewhere. Shows done/total, time left and a text of the caller's. Not thread safe.
+/// Time left of a job from the speed of its own steps. The first report starts the clock: what comes before it
+/// (building kernels, reading) would make the first answers much too long.
+class TimeLeft {
+ public:
+  explicit TimeLeft(long total) : total_(total) {}
+  /// `done` steps at `now` [s, any start]. [s] that the rest takes; none until 3 s have been measured, and then until
+  /// 1 % of the steps or 20 s have been. 0 when all are done.
+  std::optional<double> update(long done, double now);
+
+ private:
+  long total_;
+  std::optional<long> first_done_;
+  double first_time_ = 0.0;
+};
+
+/// Progress of a long job on standard error: a line that is redrawn on a terminal (at most 10 times a second, cut to
+/// the terminal's width), a plain line every 10 % or 30 s elsewhere. Shows done/total, time left ("-:--" until it means
+/// something) and a text of the caller's. Nothing at all where the log shows no information (set_log_level). Not thread
+/// safe.
 class Progress {
  public:
-  /// what: a word or two ("train"). total >= 0 steps, of which the first `before` were done by an earlier run: the time
-  /// left follows from the others' speed.
-  Progress(std::string what, long total, long before = 0);
+  /// what: a word or two ("train"). total >= 0 steps; the time left follows from the steps after the first update.
+  Progress(std::string what, long total);
   /// Ends the line; also done by the destructor.
   ~Progress();
   Progress(const Progress&) = delete;
@@ -25,16 +42,16 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void print(long done, const std::string& detail);
+  void print(long done, const std::string& left, const std::string& detail);
 
   std::string what_;
   long total_;
-  long before_;
+  bool shown_;
   bool terminal_;
   bool finished_ = false;
   bool line_open_ = false;
-  long last_done_ = 0;
   long next_plain_ = 0;
+  TimeLeft time_left_;
   Clock::time_point start_;
   Clock::time_point last_print_;
 };

@@ -89,7 +89,8 @@ AtomicFile::AtomicFile(std::string path, TemporaryName name) : path_(std::move(p
   }
   try {
     // What replaces a private file must not be readable in the making either.
-    const std::string extension = name == TemporaryName::plain ? "" : fs::path(path_).extension().string();
+    std::string extension = name == TemporaryName::plain ? "" : fs::path(path_).extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     temporary_ = std::make_unique<TemporaryFile>(target_, old_mode_ < 0 ? 0666 : 0600, extension);
   } catch (const std::system_error& e) {
     throw InputError(path_, cannot_write(reason_of(e)));

@@ -15,7 +15,8 @@ namespace odosplat {
 /// fast: for files that are many and quickly made again, such as rendered images.
 enum class Durability { synced, fast };
 
-/// Who the temporary file's name is read by: nobody, or an encoder that tells the format by the extension.
+/// Who the temporary file's name is read by: nobody, or an encoder that tells the format by the extension
+/// (given to it in small letters).
 enum class TemporaryName { plain, keep_extension };
 
 /// A file that is written beside its place and renamed at the end: a reader sees the old file or the whole new one,

@@ -2,6 +2,8 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/io/video_writer.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
@@ -16,7 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_avi(const std::string& path) { return fs::path(path).extension() == ".avi"; }
+/// Whether the name ends so, in any case.
+bool ends_in(const std::string& path, const std::string& ending) {
+  std::string text = fs::path(path).extension().string();
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text == ending;
+}
+
+bool is_avi(const std::string& path) { return ends_in(path, ".avi"); }
 
 }  // namespace
 
@@ -30,7 +40,7 @@ struct VideoWriter::State {
 };
 
 void check_video_name(const std::string& path) {
-  if (is_avi(path) || fs::path(path).extension() == ".mp4") return;
+  if (is_avi(path) || ends_in(path, ".mp4")) return;
   throw InputError(path, "a video's name must end in .avi or .mp4");
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/least_size.hpp"
 #include "odosplat/odometry/relocalizer.hpp"
 
 namespace odosplat {
@@ -61,6 +62,7 @@ Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& op
                {options.keyframe, options.memory, options.window, options.optimizer, options.marginalisation,
                 options.activation, options.drift}) {
   camera_.check();
+  check_least_size(camera_);
   options_.check();
   require(T_world_camera_start.is_finite(), "start pose", "finite");
   if (options_.background) thread_ = std::make_unique<KeyframeThread>(backend_);

@@ -8,6 +8,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
+#include "odosplat/odometry/least_size.hpp"
 
 namespace odosplat {
 namespace {
@@ -54,6 +55,7 @@ void RelocalizerOptions::check() const {
 Relocalizer::Relocalizer(const Camera& camera, MapView& map, std::vector<SE3> places, const RelocalizerOptions& options)
     : camera_(camera), map_(map), given_places_(std::move(places)), options_(options), tracker_(options.tracker) {
   camera_.check();
+  check_least_size(camera_);
   options_.check();
   for (const SE3& place : given_places_) require(place.is_finite(), "places", "finite");
 }

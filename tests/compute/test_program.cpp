@@ -2,11 +2,14 @@
 // Copyright 2026 The odosplat authors
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "odosplat/compute/build_notice.hpp"
 #include "odosplat/compute/program.hpp"
 
 namespace odosplat::compute {
@@ -64,6 +67,26 @@ TEST_F(ProgramTest, BinaryIsKeptOnDiskAndUsedAgain) {
   const auto written = std::filesystem::last_write_time(entries()[0]);
   EXPECT_EQ(run_scale(3.0F), (std::vector<float>{3.0F, 6.0F, 9.0F}));
   EXPECT_EQ(std::filesystem::last_write_time(entries()[0]), written);
+}
+
+TEST_F(ProgramTest, LongBuildsAreAnnouncedOnce) {
+  Context context = Context::open();
+  int notices = 0;
+  set_build_notice(
+      context, [&notices] { ++notices; }, 0.0);
+  Program::from_text(context, scale_text);
+  EXPECT_EQ(notices, 1);
+  Program::from_text(context, scale_text, "-DOTHER");
+  EXPECT_EQ(notices, 1) << "once for a context";
+  Context again = Context::open();
+  set_build_notice(
+      again, [&notices] { ++notices; }, 0.0);
+  Program::from_text(again, scale_text);
+  EXPECT_EQ(notices, 1) << "what the cache holds is not built";
+  set_build_notice(
+      again, [&notices] { ++notices; }, 3600.0);
+  Program::from_text(again, scale_text, "-DLAST");
+  EXPECT_EQ(notices, 1) << "nobody waited long";
 }
 
 TEST_F(ProgramTest, OptionsAreInTheKey) {
@@ -140,6 +163,28 @@ TEST_F(ProgramTest, ProfilingSumsTheKernelsOfAStage) {
   EXPECT_EQ(stages[0].kernels[0].milliseconds, stages[0].milliseconds);
   EXPECT_EQ(stages[1].stage, "scale");
   EXPECT_EQ(stages[1].launches, 1);
+}
+
+TEST(BufferTest, TooLittleMemoryIsAnErrorAndNoAbort) {
+  const Context context = Context::open();
+  if (!context.is_cpu()) GTEST_SKIP() << "a limit of this process does not reach a GPU's memory";
+  rlimit old{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &old), 0);
+  rlimit little = old;
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  little.rlim_cur = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (32U << 20U);
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &little), 0);
+  std::string fault;
+  try {
+    Buffer<float> buffer(context, std::size_t{1} << 26U);
+    buffer.fill_zero();
+    context.finish();
+  } catch (const DeviceError& e) {
+    fault = e.what();
+  }
+  setrlimit(RLIMIT_AS, &old);
+  EXPECT_THAT(fault, HasSubstr("too little memory"));
 }
 
 TEST(BufferTest, EmptyAndGrowing) {

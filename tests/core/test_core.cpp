@@ -2,9 +2,13 @@
 // Copyright 2026 The odosplat authors
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 
 #include "odosplat/core/camera.hpp"
 #include "odosplat/core/error.hpp"
@@ -138,6 +142,25 @@ TEST(ParallelFor, RethrowsAndNests) {
   parallel_for(4, 1, [&](int, int) { parallel_for(5, 1, [&](int, int) { ++count; }); });
   EXPECT_EQ(count, 20);
   EXPECT_THROW(set_threads(0), InputError);
+}
+
+TEST(ParallelFor, GoesOnWithTheThreadsThatTheMachineGives) {
+  const auto with_little_memory = [] {
+    // Each thread needs a stack of some megabytes.
+    rlimit memory{};
+    std::ifstream("/proc/self/statm") >> memory.rlim_cur;
+    memory.rlim_cur = memory.rlim_cur * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (64U << 20U);
+    memory.rlim_max = memory.rlim_cur;
+    setrlimit(RLIMIT_AS, &memory);
+    set_threads(1000);
+    std::atomic<int> count{0};
+    parallel_for(2000, 1, [&](int, int) {
+      ++count;
+      usleep(100);
+    });
+    std::exit(count == 2000 ? 0 : 1);
+  };
+  EXPECT_EXIT(with_little_memory(), testing::ExitedWithCode(0), "");
 }
 
 TEST(StampedPose, KeepsTheStampAsWritten) {

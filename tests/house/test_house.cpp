@@ -207,6 +207,22 @@ TEST(House, OnlyTheTrackerSeesTheOdometryClass) {
   }
 }
 
+// Text of files must not reach a terminal raw: these files escape it. A user's program in one file is no part of ours.
+TEST(House, StandardStreamsAreWrittenInFewPlaces) {
+  const Names places{"apps/output.cpp", "apps/support.cpp", "apps/example/track_images.cpp", "lib/core/progress.cpp"};
+  for (const char* folder : {"apps", "lib", "viewer"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string name = fs::relative(entry.path(), root).string();
+      if (entry.path().extension() != ".cpp" || places.count(name) > 0) continue;
+      const std::string text = text_of(entry.path());
+      for (const char* way :
+           {"std::printf", "std::puts", "std::fprintf(std", "std::fputs(", "std::cout", "std::cerr"}) {
+        EXPECT_EQ(text.find(way), std::string::npos) << name << " uses " << way << "; use print or the log";
+      }
+    }
+  }
+}
+
 TEST(House, EveryFileNamesItsLicence) {
   for (const char* folder : {"lib", "viewer", "apps", "kernels", "tests"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {

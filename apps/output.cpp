@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "output.hpp"
+
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <string>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/terminal_text.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+[[noreturn]] void fail_output() {
+  const std::string reason = errno != 0 ? std::strerror(errno) : "an earlier line failed";
+  throw InputError("standard output", "cannot be written: " + reason);
+}
+
+}  // namespace
+
+void print(const char* format, ...) {
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::va_list again;
+  va_copy(again, arguments);
+  const int size = std::vsnprintf(nullptr, 0, format, arguments);
+  va_end(arguments);
+  std::string text(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
+  // The terminating zero goes where the string keeps its own.
+  std::vsnprintf(text.data(), text.size() + 1, format, again);
+  va_end(again);
+  const std::string shown = printable_text(text);
+  errno = 0;
+  if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size()) fail_output();
+}
+
+void finish_output() {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) fail_output();
+}
+
+}  // namespace odosplat::apps
