@@ -4,27 +4,47 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "no_result.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/evaluate.hpp"
 #include "odosplat/io/atomic_file.hpp"
-#include "odosplat/io/trajectory_file.hpp"
 #include "support.hpp"
+#include "truth.hpp"
 
 namespace odosplat::apps {
 namespace {
 
 struct EvalFlags {
   std::string estimate;
-  std::string truth;
+  TruthFlags truth;
   std::string alignment = "none";
   std::string json;
   std::string estimate_times;
-  std::string truth_times;
   EvalOptions options;
 };
 
 nlohmann::ordered_json json_of(const Statistics& s) {
   return {{"rmse", s.rmse}, {"mean", s.mean}, {"median", s.median}, {"max", s.max}, {"p99", s.p99}};
+}
+
+nlohmann::ordered_json json_of(const EvalResult& result, const std::string& alignment) {
+  return {{"ate_m", json_of(result.ate_m)},
+          {"rte_m", json_of(result.rte_m)},
+          {"rre_deg", json_of(result.rre_deg)},
+          {"pairs", result.pairs},
+          {"coverage", result.coverage},
+          {"coverage_estimate", result.coverage_estimate},
+          {"coverage_truth", result.coverage_truth},
+          {"alignment", alignment},
+          {"scale", result.truth_from_estimate.scale}};
+}
+
+EvalResult evaluate_or_say_why(const JudgedTrajectory& judged, const EvalOptions& options) {
+  try {
+    return evaluate(judged.estimate, judged.truth, options);
+  } catch (const NothingMatched& e) {
+    throw NoResult(e.what());
+  }
 }
 
 void print_row(const char* name, const Statistics& s, double unit, const char* format) {
@@ -36,26 +56,19 @@ void print_row(const char* name, const Statistics& s, double unit, const char* f
 void run(EvalFlags& flags) {
   flags.options.alignment = alignment_from_name(flags.alignment);
   if (!flags.json.empty()) ensure_output_file(flags.json);
-  const Trajectory estimate = read_trajectory(flags.estimate, flags.estimate_times);
-  const Trajectory truth = read_trajectory(flags.truth, flags.truth_times);
-  const EvalResult result = evaluate(estimate, truth, flags.options);
+  const JudgedTrajectory judged = read_judged(flags.estimate, flags.estimate_times, flags.truth);
+  const EvalResult result = evaluate_or_say_why(judged, flags.options);
   std::printf("%-10s%12s%12s%12s%12s%12s\n", "", "RMSE", "mean", "median", "max", "99 %");
   print_row("ATE [mm]", result.ate_m, 1000.0, "%12.3f");
   print_row("RTE [mm]", result.rte_m, 1000.0, "%12.3f");
   print_row("RRE [deg]", result.rre_deg, 1.0, "%12.4f");
-  std::printf("%zu pairs, coverage %.1f %%, alignment %s", result.pairs, 100.0 * result.coverage,
+  std::printf("%zu pairs, coverage %.1f %% (of the estimate %.1f %%, of the truth %.1f %%), alignment %s", result.pairs,
+              100.0 * result.coverage, 100.0 * result.coverage_estimate, 100.0 * result.coverage_truth,
               flags.alignment.c_str());
   if (result.alignment == TrajectoryAlignment::sim3) std::printf(", scale %.6f", result.truth_from_estimate.scale);
   std::printf("\n");
-  if (flags.json.empty()) return;
-  const nlohmann::ordered_json json{{"ate_m", json_of(result.ate_m)},
-                                    {"rte_m", json_of(result.rte_m)},
-                                    {"rre_deg", json_of(result.rre_deg)},
-                                    {"pairs", result.pairs},
-                                    {"coverage", result.coverage},
-                                    {"alignment", flags.alignment},
-                                    {"scale", result.truth_from_estimate.scale}};
-  write_file_atomically(flags.json, json.dump(2) + "\n");
+  if (!flags.json.empty()) write_file_atomically(flags.json, json_of(result, flags.alignment).dump(2) + "\n");
+  if (!result.doubt.empty()) throw NoResult("only " + result.doubt);
 }
 
 }  // namespace
@@ -63,14 +76,13 @@ void run(EvalFlags& flags) {
 void add_eval(CLI::App& app, Common& common) {
   CLI::App* command = add_command(app, common, "eval", "errors of an estimated trajectory: ATE, RTE, RRE");
   auto flags = std::make_shared<EvalFlags>();
-  command->add_option("EST", flags->estimate, "estimated trajectory (TUM, KITTI or Redwood log)")->required();
-  command->add_option("--truth", flags->truth, "true trajectory")->required();
+  command->add_option("EST", flags->estimate, "estimated trajectory (TUM, KITTI, EuRoC or Redwood log)")->required();
+  add_truth_flags(command, flags->truth)->required();
   command->add_option("--align", flags->alignment, "none, se3 or sim3 (Umeyama)");
   command->add_option("--delta", flags->options.delta, "frames between the two poses of a relative error");
   command->add_flag("--all-pairs", flags->options.all_pairs, "relative errors from every pose, not every delta-th");
   command->add_option("--max-time-difference", flags->options.max_time_difference, "between matched poses [s]");
   command->add_option("--times", flags->estimate_times, "times of EST, one a line, for formats without times");
-  command->add_option("--truth-times", flags->truth_times, "times of the truth likewise");
   command->add_option("--json", flags->json, "report to write (JSON)");
   command->final_callback([flags] { run(*flags); });
 }

@@ -11,6 +11,7 @@
 #include <ctime>
 #include <exception>
 
+#include "no_result.hpp"
 #include "odosplat/compute/device.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
@@ -23,6 +24,7 @@ std::atomic<bool> interrupt_flag{false};
 
 constexpr int exit_internal = 1;
 constexpr int exit_bad_input = 2;
+constexpr int exit_no_result = 3;
 constexpr int exit_interrupted = 130;
 
 extern "C" void on_interrupt(int) {
@@ -69,6 +71,8 @@ int run_program(CLI::App& app, int argc, char** argv) {
     return fail(exit_bad_input, e.what());
   } catch (const compute::NoSuchDevice& e) {
     return fail(exit_bad_input, e.what());
+  } catch (const NoResult& e) {
+    return fail(exit_no_result, e.what());
   } catch (const Interrupted& e) {
     return fail(exit_interrupted, e.what());
   } catch (const std::exception& e) {
