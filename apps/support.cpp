@@ -20,6 +20,7 @@
 #include <thread>
 
 #include "command_line.hpp"
+#include "no_result.hpp"
 #include "odosplat/compute/build_notice.hpp"
 #include "odosplat/compute/device.hpp"
 #include "odosplat/compute/program.hpp"
@@ -36,6 +37,7 @@ sem_t interrupt_came;
 
 constexpr int exit_internal = 1;
 constexpr int exit_bad_input = 2;
+constexpr int exit_no_result = 3;
 constexpr int exit_interrupted = 130;
 
 extern "C" void on_interrupt(int signal) {
@@ -84,6 +86,8 @@ int run_program(CLI::App& app, int argc, char** argv) {
     return fail(exit_bad_input, printable_line(e.what()));
   } catch (const compute::NoSuchDevice& e) {
     return fail(exit_bad_input, printable_line(e.what()));
+  } catch (const NoResult& e) {
+    return fail(exit_no_result, printable_line(e.what()));
   } catch (const Interrupted& e) {
     return fail(exit_interrupted, printable_line(e.what()));
   } catch (const std::bad_alloc&) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "map_views.hpp"
 #include "number_flags.hpp"
@@ -16,6 +17,7 @@
 #include "odosplat/viewer/map_figure.hpp"
 #include "odosplat/viewer/trajectory_figure.hpp"
 #include "sequence_flags.hpp"
+#include "truth.hpp"
 #include "view_figures.hpp"
 #include "view_output.hpp"
 
@@ -46,12 +48,14 @@ struct TrajectoryViewFlags {
   ViewOutputFlags output;
   MapFlags map;
   std::string estimate;
-  std::string truth;
+  std::string times;
+  TruthFlags truth;
   std::string title;
 };
 
 std::string error_title(const Trajectory& estimate, const Trajectory& truth) {
   const EvalResult result = evaluate(estimate, truth, {});
+  if (!result.doubt.empty()) log_warning("only " + result.doubt);
   char text[120];
   std::snprintf(text, sizeof(text), "ATE RMSE %.1f mm, max %.1f mm", 1000.0 * result.ate_m.rmse,
                 1000.0 * result.ate_m.max);
@@ -62,8 +66,11 @@ void run_trajectory(const TrajectoryViewFlags& flags) {
   TrajectoryFigure figure;
   set_size(flags.output, figure);
   figure.map = read_map_points(flags.map);
-  figure.estimate = read_trajectory(flags.estimate);
-  if (!flags.truth.empty()) figure.truth = read_trajectory(flags.truth);
+  JudgedTrajectory judged = read_judged(flags.estimate, flags.times, flags.truth);
+  figure.estimate = std::move(judged.estimate);
+  figure.truth = std::move(judged.truth);
+  // Of which images the run was is not known of other people's trajectories: their ends are not taken for lost.
+  figure.span = judged.span.value_or(TimeSpan{figure.estimate.front().time, figure.estimate.back().time});
   require_near_origin(flags.estimate, figure.estimate);
   require_near_origin(flags.truth, figure.truth);
   figure.title = flags.title;
@@ -146,7 +153,8 @@ void add_view(CLI::App& app, Common& common) {
   command = add_view_kind(view, common, "trajectory", "an estimated trajectory in its map, coloured by its error",
                           trajectory->output);
   command->add_option("EST", trajectory->estimate, "estimated trajectory")->required();
-  command->add_option("--truth", trajectory->truth, "true trajectory");
+  command->add_option("--times", trajectory->times, "times of EST, one a line, for formats without times");
+  add_truth_flags(command, trajectory->truth);
   add_map_flags(command, trajectory->map);
   command->add_option("--title", trajectory->title, "one line (default: the error)");
   command->final_callback([trajectory] { run_trajectory(*trajectory); });

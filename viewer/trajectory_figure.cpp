@@ -63,7 +63,7 @@ Paths make_paths(const TrajectoryFigure& figure, const std::vector<double>& erro
   for (const auto& pose : figure.truth) {
     if (pose.T_world_camera.is_finite()) paths.truth.push_back(pose.T_world_camera.translation());
   }
-  paths.lost = lost_stretches(figure.estimate, figure.truth);
+  paths.lost = lost_stretches(figure.estimate, figure.truth, figure.span);
   return paths;
 }
 
@@ -190,7 +190,8 @@ std::vector<double> position_errors(const Trajectory& estimate, const Trajectory
   return errors;
 }
 
-std::vector<std::vector<Eigen::Vector3d>> lost_stretches(const Trajectory& estimate, const Trajectory& truth) {
+std::vector<std::vector<Eigen::Vector3d>> lost_stretches(const Trajectory& estimate, const Trajectory& truth,
+                                                         const std::optional<TimeSpan>& span) {
   std::vector<std::vector<Eigen::Vector3d>> stretches;
   if (estimate.empty()) return stretches;
   const double longest = longest_step(estimate);
@@ -206,9 +207,9 @@ std::vector<std::vector<Eigen::Vector3d>> lost_stretches(const Trajectory& estim
     }
     if (path.size() >= 2) stretches.push_back(std::move(path));
   };
-  if (!truth.empty() && estimate.front().time - truth.front().time > longest) {
-    add(truth.front().time, estimate.front().time, nullptr, nullptr);
-  }
+  const double first = truth.empty() ? 0.0 : span ? std::max(span->first, truth.front().time) : truth.front().time;
+  const double last = truth.empty() ? 0.0 : span ? std::min(span->last, truth.back().time) : truth.back().time;
+  if (!truth.empty() && estimate.front().time - first > longest) add(first, estimate.front().time, nullptr, nullptr);
   for (std::size_t i = 0; i + 1 < estimate.size(); ++i) {
     const auto& a = estimate[i];
     const auto& b = estimate[i + 1];
@@ -216,9 +217,7 @@ std::vector<std::vector<Eigen::Vector3d>> lost_stretches(const Trajectory& estim
       add(a.time, b.time, &a, &b);
     }
   }
-  if (!truth.empty() && truth.back().time - estimate.back().time > longest) {
-    add(estimate.back().time, truth.back().time, nullptr, nullptr);
-  }
+  if (!truth.empty() && last - estimate.back().time > longest) add(estimate.back().time, last, nullptr, nullptr);
   return stretches;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,15 +12,22 @@
 
 namespace odosplat {
 
+/// From one time to another [s], both included.
+struct TimeSpan {
+  double first = 0.0;
+  double last = 0.0;
+};
+
 /// What `view trajectory` shows: an estimated path over the paled map, from above and in perspective, coloured by its
 /// error, with the true path as a thin black line in it, the start, and dashes where tracking was lost.
 struct TrajectoryFigure {
-  cv::Size size{1600, 0};      // [px]; height 0: three quarters of the width
-  MapPoints map;               // may be empty
-  Trajectory estimate;         // posed frames only, in the map's frame (already aligned, if at all)
-  Trajectory truth;            // may be empty: no errors then
-  std::vector<double> errors;  // [m], as many as the estimate, NaN = unknown; empty: distances from the truth
-  double error_max = 0.0;      // [m] end of the colour scale; 0: a round figure over 99 % of the errors
+  cv::Size size{1600, 0};        // [px]; height 0: three quarters of the width
+  MapPoints map;                 // may be empty
+  Trajectory estimate;           // posed frames only, in the map's frame (already aligned, if at all)
+  Trajectory truth;              // may be empty: no errors then
+  std::optional<TimeSpan> span;  // of the images that were to be posed; none: that of the truth
+  std::vector<double> errors;    // [m], as many as the estimate, NaN = unknown; empty: distances from the truth
+  double error_max = 0.0;        // [m] end of the colour scale; 0: a round figure over 99 % of the errors
   Eigen::Vector3d up = Eigen::Vector3d::Zero();  // of the world; zero: from the cameras
   double cut_height = automatic_cut;             // [m] along up; see prepare_map
   std::string title;                             // one line, such as "ATE RMSE 4.1 mm, max 9.8 mm"
@@ -39,7 +47,8 @@ std::vector<double> position_errors(const Trajectory& estimate, const Trajectory
 /// two poses.
 double longest_step(const Trajectory& estimate);
 
-/// Paths along which the estimate is missing, as told above.
-std::vector<std::vector<Eigen::Vector3d>> lost_stretches(const Trajectory& estimate, const Trajectory& truth);
+/// Paths along which the estimate is missing, as told above; what is not in the span is not missing.
+std::vector<std::vector<Eigen::Vector3d>> lost_stretches(const Trajectory& estimate, const Trajectory& truth,
+                                                         const std::optional<TimeSpan>& span = {});
 
 }  // namespace odosplat

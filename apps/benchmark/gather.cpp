@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <utility>
 
 #include "foreign_text.hpp"
 #include "job_outputs.hpp"
@@ -180,12 +181,15 @@ RunFacts run_facts(const PlannedRun& planned, const SequenceFacts& sequence, con
   facts.fault = record.fault.empty() ? sequence.fault : record.fault;
   if (!facts.fault.empty()) return facts;
   try {
-    facts.estimate = read_trajectory(planned.folder + "/trajectory.txt");
+    PoseFile estimate = read_pose_file(planned.folder + "/trajectory.txt");
+    if (estimate.stamps != StampKind::times) throw InputError("trajectory.txt", "its poses have no times");
+    facts.estimate = std::move(estimate.poses);
     facts.frames = static_cast<int>(sequence.truth.size());
     facts.posed = static_cast<int>(facts.estimate.size());
     facts.lost = facts.frames - facts.posed;
     read_report(planned, record, facts);
     facts.unaligned = judged(facts.estimate, sequence.truth, TrajectoryAlignment::none);
+    if (!facts.unaligned.doubt.empty()) throw InputError("trajectory.txt", "only " + facts.unaligned.doubt);
     facts.aligned = facts.unaligned;
     // Too few poses, or all on a line, determine no alignment: the run stands as it is.
     try {

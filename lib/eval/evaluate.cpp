@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <string>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/stamp_guess.hpp"
 
 namespace odosplat {
 namespace {
@@ -34,6 +36,20 @@ void check_finite(const Trajectory& trajectory, const char* name) {
   }
 }
 
+NamedStamps stamps_of(const Trajectory& trajectory, const char* name) {
+  NamedStamps stamps{name, {}};
+  for (const StampedPose& pose : trajectory) stamps.times.push_back(pose.time);
+  return stamps;
+}
+
+std::string why_unmatched(const Trajectory& estimate, const Trajectory& truth, const EvalResult& result,
+                          double tolerance) {
+  if (2 * result.pairs >= truth.size() && result.pairs > 1) {
+    return "the truth has few poses (" + std::to_string(truth.size()) + ")";
+  }
+  return guess_stamp_fault(stamps_of(estimate, "the estimate"), stamps_of(truth, "the truth"), tolerance);
+}
+
 }  // namespace
 
 void EvalOptions::check() const {
@@ -49,14 +65,24 @@ EvalResult evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   result.matches = associate(estimate, truth, options.max_time_difference);
   result.pairs = result.matches.size();
   result.alignment = options.alignment;
-  if (result.pairs == 0) {
-    throw InputError("trajectories", "no pose of the estimate (" + std::to_string(estimate.size()) +
-                                         ") is of the time of one of the truth (" + std::to_string(truth.size()) +
-                                         ") within " + std::to_string(options.max_time_difference) + " s");
+  const bool under_half = 2 * result.pairs < estimate.size();
+  if (result.pairs == 0 || under_half) {
+    char within[32];
+    std::snprintf(within, sizeof(within), "%g s", options.max_time_difference);
+    const std::string why = why_unmatched(estimate, truth, result, options.max_time_difference);
+    result.doubt = std::to_string(result.pairs) + " of " + std::to_string(estimate.size()) +
+                   " poses of the estimate are of the time of one of the truth (" + std::to_string(truth.size()) +
+                   ") within " + within + (why.empty() ? "" : "; " + why);
   }
-  const std::size_t frames = options.frames > 0 ? options.frames : expected_frames(estimate, truth);
-  result.coverage =
-      std::min(1.0, static_cast<double>(result.pairs) / static_cast<double>(std::max<std::size_t>(frames, 1)));
+  const bool alignable = options.alignment == TrajectoryAlignment::none || result.pairs >= 3;
+  if (result.pairs == 0 || (under_half && !alignable)) throw NothingMatched("trajectories", result.doubt);
+  const std::size_t frames = options.frames > 0 ? options.frames
+                             : under_half       ? truth.size()
+                                                : expected_frames(estimate, truth);
+  const auto pairs = static_cast<double>(result.pairs);
+  result.coverage_truth = std::min(1.0, pairs / static_cast<double>(std::max<std::size_t>(frames, 1)));
+  result.coverage_estimate = pairs / static_cast<double>(estimate.size());
+  result.coverage = std::min(result.coverage_truth, result.coverage_estimate);
 
   std::vector<SE3> estimates;
   std::vector<SE3> truths;

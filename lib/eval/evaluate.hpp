@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "odosplat/core/error.hpp"
 #include "odosplat/core/similarity.hpp"
 #include "odosplat/core/trajectory.hpp"
 #include "odosplat/eval/alignment.hpp"
@@ -29,19 +31,31 @@ struct EvalResult {
   Statistics rte_m;    // relative translation error over delta frames; empty if there are fewer matched poses
   Statistics rre_deg;  // relative rotation error over delta frames
   std::size_t pairs = 0;
-  double coverage = 0.0;  // pairs / frames, 1 at most
+  double coverage = 0.0;           // the smaller of the next two
+  double coverage_estimate = 0.0;  // pairs / poses of the estimate
+  double coverage_truth = 0.0;     // pairs / frames, 1 at most
+  std::string doubt;               // one line that says why if under half of the estimate is matched, else empty
   TrajectoryAlignment alignment = TrajectoryAlignment::none;
   Similarity truth_from_estimate;  // the alignment that was applied; its scale is 1 unless sim3
   std::vector<Match> matches;
   std::vector<double> position_errors_m;  // of each match
 };
 
+/// No pose of the estimate is of the time of one of the truth, or too few of many for the alignment; the message says
+/// the likely cause.
+class NothingMatched : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// Judges an estimated trajectory by the true one. Both give T_world_camera [m]; only matched poses count.
 /// Source: Sturm et al. 2012, "A benchmark for the evaluation of RGB-D SLAM systems", section V, with the conventions
 /// of the public tool evo, whose figures these are: ATE is the error of the position (its `trans_part`), the relative
 /// error of poses i and j is (Q_i^-1 Q_j)^-1 (P_i^-1 P_j) with truth Q and estimate P, consecutive pairs do not overlap
-/// unless all_pairs. Differs: association is one to one; coverage says what share of the frames was judged. Throws
-/// InputError if no poses match, or if the alignment asked for is not determined.
+/// unless all_pairs. Differs: association is one to one; coverage says what share of estimate and truth was judged. If
+/// under half of the estimate is matched, its rate tells nothing of the frames: every true pose counts as one. Throws
+/// NothingMatched if no poses match (or under half, and too few to align), InputError if the alignment asked for is not
+/// determined.
 EvalResult evaluate(const Trajectory& estimate, const Trajectory& truth, const EvalOptions& options);
 
 }  // namespace odosplat

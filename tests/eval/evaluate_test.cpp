@@ -172,6 +172,70 @@ TEST(Evaluate, CoverageCountsTheFramesWithoutEstimate) {
   EXPECT_DOUBLE_EQ(evaluate(estimate, path(100), options).coverage, 0.5);
 }
 
+TEST(Evaluate, CoverageCountsAgainstBoth) {
+  Trajectory estimate = path(100);
+  estimate.resize(80);
+  Trajectory truth = path(100);
+  truth.erase(truth.begin(), truth.begin() + 20);
+  const EvalResult r = evaluate(estimate, truth, {});
+  EXPECT_EQ(r.pairs, 60U);
+  EXPECT_DOUBLE_EQ(r.coverage_estimate, 0.75);
+  EXPECT_DOUBLE_EQ(r.coverage_truth, 0.75);
+  EXPECT_DOUBLE_EQ(r.coverage, 0.75);
+  EXPECT_EQ(r.doubt, "");
+  truth.resize(70);
+  EXPECT_DOUBLE_EQ(evaluate(estimate, truth, {}).coverage_truth, 60.0 / 70.0);
+  EXPECT_DOUBLE_EQ(evaluate(estimate, truth, {}).coverage, 0.75);
+  estimate.resize(30);
+  EXPECT_DOUBLE_EQ(evaluate(estimate, truth, {}).coverage, 10.0 / 70.0);
+}
+
+// A single pair must not pass for the whole.
+TEST(Evaluate, SaysWhyUnderHalfIsMatched) {
+  const struct {
+    double factor;
+    const char* unit;
+  } units[] = {{1e3, "ms"}, {1e6, "us"}, {1e9, "ns"}};
+  for (const auto& [factor, unit] : units) {
+    for (const bool scale_truth : {false, true}) {
+      Trajectory estimate = path(100);
+      Trajectory truth = path(100);
+      for (StampedPose& pose : scale_truth ? truth : estimate) pose.time *= factor;
+      const EvalResult r = evaluate(estimate, truth, {});
+      EXPECT_LE(r.pairs, 4U);
+      EXPECT_LE(r.coverage, 0.04);
+      EXPECT_LE(r.coverage_truth, 0.04);
+      EXPECT_THAT(r.doubt,
+                  testing::HasSubstr("of 100 poses of the estimate are of the time of one of the truth (100)"));
+      EXPECT_THAT(r.doubt, testing::EndsWith(std::string("the stamps of the ") + (scale_truth ? "truth" : "estimate") +
+                                             " look like " + unit));
+    }
+  }
+  Trajectory few = path(100);
+  few.resize(40);
+  const EvalResult r = evaluate(path(100), few, {});
+  EXPECT_EQ(r.pairs, 40U);
+  EXPECT_DOUBLE_EQ(r.coverage, 0.4);
+  EXPECT_THAT(r.doubt, testing::EndsWith("the truth has few poses (40)"));
+  few.resize(10);
+  few.insert(few.end(), 60, StampedPose{500.0, SE3(), ""});
+  EXPECT_THAT(evaluate(few, path(100), {}).doubt, testing::HasSubstr("10 of 70 poses of the estimate"));
+}
+
+TEST(Evaluate, NothingMatchedIsToldFromBadInput) {
+  Trajectory late = path(100);
+  for (StampedPose& pose : late) pose.time += 1000.0;
+  try {
+    evaluate(late, path(100), {});
+    ADD_FAILURE() << "matched";
+  } catch (const NothingMatched& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("a constant offset of about 1000.000 s"));
+  }
+  Trajectory nanoseconds = path(100);
+  for (StampedPose& pose : nanoseconds) pose.time *= 1e9;
+  EXPECT_THROW(evaluate(nanoseconds, path(100), with(TrajectoryAlignment::sim3)), NothingMatched);
+}
+
 TEST(Evaluate, BadInputIsNamed) {
   Trajectory late = path(10);
   for (StampedPose& pose : late) pose.time += 100.0;

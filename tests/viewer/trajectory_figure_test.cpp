@@ -60,6 +60,12 @@ TEST(LostStretches, AreTheGapsOfTheEstimate) {
   EXPECT_EQ(straight[0].size(), 2U);
   const Trajectory middle(truth.begin() + 20, truth.begin() + 70);
   EXPECT_EQ(lost_stretches(middle, truth).size(), 2U);
+  // What no image was of is not lost.
+  EXPECT_TRUE(lost_stretches(middle, truth, TimeSpan{truth[20].time, truth[69].time}).empty());
+  const auto end = lost_stretches(middle, truth, TimeSpan{truth[20].time, truth[89].time});
+  ASSERT_EQ(end.size(), 1U);
+  EXPECT_EQ(end[0].size(), 21U);  // frames 69 to 89
+  EXPECT_EQ(lost_stretches(gap, truth, TimeSpan{truth[0].time, truth[99].time}).size(), 1U);
   Trajectory every_third;  // a slower camera is not a lost one
   for (std::size_t k = 0; k < truth.size(); k += 3) every_third.push_back(truth[k]);
   EXPECT_TRUE(lost_stretches(every_third, truth).empty());
@@ -88,6 +94,10 @@ TEST(TrajectoryFigure, MarksLostStretches) {
   EXPECT_EQ(count_near(draw_trajectory(figure), lost_color, 10), 0);
   figure.estimate.erase(figure.estimate.begin() + 30, figure.estimate.begin() + 60);
   EXPECT_GT(count_near(draw_trajectory(figure)(cv::Rect(0, 0, 800, 400)), lost_color, 10), 200);
+  figure.estimate.resize(30);
+  EXPECT_GT(count_near(draw_trajectory(figure)(cv::Rect(0, 0, 800, 400)), lost_color, 10), 200);
+  figure.span = TimeSpan{figure.estimate.front().time, figure.estimate.back().time};
+  EXPECT_EQ(count_near(draw_trajectory(figure), lost_color, 10), 0);
 }
 
 TEST(TrajectoryFigure, TheScaleBarIsTrue) {
