@@ -2,11 +2,15 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
+
+namespace CLI {
+class App;
+class Success;
+}  // namespace CLI
 
 namespace odosplat::apps {
 

@@ -2,8 +2,11 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 /// The subcommands, a file each. Every add_X declares its flags on `app` and runs when it was chosen: bad input is an
 /// InputError, results go to standard output.

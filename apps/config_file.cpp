@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "config_file.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cstdint>

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "eval_depth.hpp"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <limits>

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "help_text.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <sstream>
 #include <vector>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include "command_line.hpp"
+
+#include <CLI/CLI.hpp>
+
 #include "support.hpp"
 
 int main(int argc, char** argv) {

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "map_views.hpp"
 
+#include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

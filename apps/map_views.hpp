@@ -15,6 +15,10 @@
 #include "odosplat/viewer/map_points.hpp"
 #include "support.hpp"
 
+namespace CLI {
+class App;
+}  // namespace CLI
+
 namespace odosplat::apps {
 
 /// Where a method's map comes from.

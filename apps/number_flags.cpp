@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "number_flags.hpp"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 

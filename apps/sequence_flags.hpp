@@ -2,13 +2,17 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "odosplat/io/sequence.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace odosplat::apps {
 

@@ -4,6 +4,7 @@
 
 #include <semaphore.h>
 #include <sys/resource.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <atomic>

@@ -2,13 +2,16 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <string>
 
 #include "commands.hpp"
 #include "odosplat/compute/context.hpp"
 #include "output.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace odosplat::apps {
 

@@ -2,12 +2,14 @@
 // Copyright 2026 The odosplat authors
 #include "track.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <sstream>
 
 #include "frame_reader.hpp"
+#include "no_result.hpp"
 #include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
@@ -295,6 +297,11 @@ void add_track(CLI::App& app, Common& common) {
           o.posed, o.frames, o.lost, o.keyframes, o.median_ms, o.p95_ms);
     if (job->realtime) {
       print("in real time: %d of %d frames dropped\n", o.dropped, o.dropped + o.frames);
+    }
+    if (o.posed == 0) {
+      throw NoResult(
+          job->out + ": none of " + std::to_string(o.frames) +
+          " frames posed: the map does not show what the images show, or the start pose or the camera is wrong");
     }
   });
 }

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "train.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

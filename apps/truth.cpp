@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "truth.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>

@@ -2,13 +2,17 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
 #include "odosplat/io/trajectory_file.hpp"
 #include "odosplat/viewer/trajectory_figure.hpp"
 #include "sequence_flags.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace odosplat::apps {
 

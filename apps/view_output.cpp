@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "view_output.hpp"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "odosplat/io/picture_file.hpp"

@@ -2,13 +2,16 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
 #include <string>
 
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/picture_file.hpp"
 #include "support.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 /// What the kinds of `odosplat view` share.
 namespace odosplat::apps {

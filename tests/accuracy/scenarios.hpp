@@ -2,9 +2,11 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "commands.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 /// The scenarios, a file each. Every add_X declares its command on `app` and runs when it was chosen.
 namespace odosplat::accuracy {

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "world.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "odosplat/core/error.hpp"

@@ -12,6 +12,10 @@
 #include "odosplat/odometry/relocalizer.hpp"
 #include "track.hpp"
 
+namespace CLI {
+class App;
+}  // namespace CLI
+
 namespace odosplat::accuracy {
 
 /// What every scenario is given: a sequence with true poses, a map, and how they are read.
