@@ -29,7 +29,9 @@ TrainingStart prepare_training(const std::string& file, double voxel, bool drop_
   require_seen(file, p.cloud, views);
   stages.next("comparing the images at the cloud's points");
   const ColorConsistency consistency(p.cloud, views);
-  p.consistency = consistency.of({}).unexplained;
+  constexpr std::size_t least_points = 200;  // in common: fewer say nothing
+  const ColorConsistency::Value given = consistency.of({});
+  p.consistency = given.points >= least_points ? given.unexplained : -1.0;
   p.doubt = geometry_doubt(consistency);
   stages.next("what the images see of the cloud");
   p.coverage = cloud_coverage(p.cloud, views);

@@ -21,7 +21,7 @@ struct TrainingStart {
   std::unique_ptr<InterpolationView> surface;  // null where the preset has none
   double shared_sigma = 0.0;                   // [m]
   CloudCoverage coverage;
-  double consistency = 1.0;
+  double consistency = -1.0;  // ColorConsistency::Value::unexplained, negative: too few points in common to tell
   std::optional<GeometryDoubt> doubt;
 };
 

@@ -17,6 +17,8 @@ namespace {
 // 11 % off stay below 23.
 constexpr double least_psnr_db = 20.0;
 constexpr double most_depth_share = 0.03;  // three rooms: 0.005 and less
+// Three rooms: 0.06, 0.09 and 0.13; one with another camera's focal length and depth: 0.34.
+constexpr double most_inconsistency = 0.25;
 constexpr double most_odd_share = 0.2;
 constexpr double most_unseen_share = 0.9;
 
@@ -137,8 +139,9 @@ MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage&
   const auto add = [&faults](const std::string& fault) { faults += (faults.empty() ? "" : ", ") + fault; };
   const std::string decibels = printed("%.1f dB", q.psnr_db) + " on its images";
   if (!(q.psnr_db >= least_psnr_db)) add("only " + decibels);
-  if (doubt)
-    add("the images disagree on the colours of the cloud's points (" + printed("%.0f %%", 100.0 * doubt->as_given) +
+  const bool inconsistent = doubt || consistency > most_inconsistency;
+  if (inconsistent)
+    add("the images disagree on the colours of the cloud's points (" + printed("%.0f %%", 100.0 * consistency) +
         " of the variance)");
   if (q.depth_error_share > most_depth_share)
     add("its depth is " + printed("%.1f %%", 100.0 * q.depth_error_share) + " off the cloud's");
@@ -151,6 +154,8 @@ MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage&
     std::string cause;
     if (doubt) {
       cause = doubt->hypothesis.words();
+    } else if (inconsistent) {
+      cause = "a camera file that is not this camera's, depth that is not registered to colour, or wrong poses";
     } else if (!(q.psnr_db >= least_psnr_db) || q.depth_error_share > most_depth_share) {
       cause = "poses, camera and cloud do not belong together, or the images have other exposures";
     } else if (q.odd_images > most_odd_share * q.images) {

@@ -44,7 +44,7 @@ struct MapQuality {
   double depth_error_share = -1.0;  // likewise
   int images = 0;
   int odd_images = 0;
-  double consistency = 1.0;  // ColorConsistency::Value::unexplained of the geometry as given
+  double consistency = 1.0;  // ColorConsistency::Value::unexplained of the geometry as given, negative: unknown
   CloudCoverage coverage;
 
   /// Lines "quality_NAME value" for the header of a map; and back, none where there are none. from_lines throws
