@@ -63,6 +63,9 @@ class Material {
   }
 
   const Camera& camera() const { return camera_; }
+  /// Patches that were found so far.
+  std::size_t patches() const { return patches_; }
+  void count(std::size_t patches) { patches_ += patches; }
   const std::vector<float>& spacings() const { return spacings_; }
   const PointCloud& cloud(bool is_mirrored) const { return is_mirrored ? mirrored_ : cloud_; }
 
@@ -108,6 +111,7 @@ class Material {
   PointCloud mirrored_;
   std::vector<float> spacings_;
   std::map<std::size_t, GrayImage> images_;
+  std::size_t patches_ = 0;
 };
 
 // Pairs of images that have poses under every shift that is tried, or as they are numbered at least.
@@ -160,6 +164,7 @@ CloudRow measure(Material& material, const CloudReading& reading, const std::vec
     for (const std::optional<double>& d : differences) {
       if (d) seen.push_back(*d);
     }
+    material.count(patches.size());
     if (patches.empty()) continue;
     const double overlap = static_cast<double>(seen.size()) / static_cast<double>(patches.size());
     row.overlap += overlap / static_cast<double>(pairs.size());
@@ -278,7 +283,8 @@ CloudCheckReport check_cloud(const CloudCheckInput& input, const CloudCheckOptio
       report.gap = gap;
       report.pairs = static_cast<int>(pairs.size());
     }
-    if (report.rows.front().relative_error <= good_error) break;
+    // Without any patch the length of the gap changes nothing.
+    if (report.rows.front().relative_error <= good_error || material.patches() == 0) break;
   }
   if (report.rows.empty()) throw InputError("sequence", "no two images with pose are near each other in the list");
   choose_reading(report, options.max_error);

@@ -101,10 +101,17 @@ TEST(CheckRegistration, FindsAnotherFocalLength) {
 }
 
 TEST(CheckRegistration, FindsACameraAside) {
-  const RegistrationReport r = check_registration(scene(1.0, 4.0, -2.0));
+  const RegistrationReport r = check_registration(scene(1.0, 6.0, -3.0));
   EXPECT_EQ(r.registered, std::optional<bool>(false)) << r.text;
-  EXPECT_NEAR(r.shift_px.x(), 4.0, 0.75);
-  EXPECT_NEAR(r.shift_px.y(), -2.0, 0.75);
+  EXPECT_NEAR(r.shift_px.x(), 6.0, 0.75);
+  EXPECT_NEAR(r.shift_px.y(), -3.0, 0.75);
+}
+
+TEST(CheckRegistration, LeavesASmallMisfitOpenAndSaysHowLargeItIs) {
+  const RegistrationReport r = check_registration(scene(1.0, 3.0, -1.0));
+  EXPECT_EQ(r.registered, std::nullopt) << r.text;
+  EXPECT_NEAR(r.shift_px.x(), 3.0, 0.75);
+  EXPECT_THAT(r.text, HasSubstr("not decidable whether they are quite of one camera"));
 }
 
 TEST(CheckRegistration, SaysNothingWhereTheImagesDoNotTell) {
