@@ -190,11 +190,14 @@ void set_option(CLI::Option& option, const ConfigEntry& entry) {
   if (is_switch && (entry.is_array || (entry.values[0] != "true" && entry.values[0] != "false"))) {
     throw CLI::ValidationError("--" + entry.key, "must be true or false");
   }
-  if (entry.is_array && option.get_items_expected_max() == 1) {
+  // A flag that may be given several times takes an array, a value a time.
+  const bool repeats = option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+  if (entry.is_array && option.get_items_expected_max() == 1 && !repeats) {
     throw CLI::ValidationError("--" + entry.key, "takes one value, not an array");
   }
   const int count = static_cast<int>(entry.values.size());
-  if (!is_switch && (count < option.get_items_expected_min() || count > option.get_items_expected_max())) {
+  if (!is_switch &&
+      (count < option.get_items_expected_min() || (count > option.get_items_expected_max() && !repeats))) {
     throw CLI::ValidationError("--" + entry.key, "does not take " + std::to_string(count) + " values");
   }
   option.add_result(entry.values);

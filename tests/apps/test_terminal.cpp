@@ -64,14 +64,14 @@ TEST_F(Terminal, TextOfFilesIsShownEscaped) {
   write_text(scratch_ / "times.txt", "1 2 3 \x1b[2J 5 6 7 8\n");
   expect_clean(run_odosplat({"eval", scratch_ / "times.txt", "--truth", scratch_ / "times.txt"}), "times.txt");
   const std::string sequence = scratch_ / "seq";
-  write_tiny_sequence(sequence, 3);
+  write_tiny_sequence(sequence, 24);
   write_text(sequence + "/rgb.txt", "0.0 rgb/no\x1b[2J\a.png\n");
   expect_clean(run_odosplat({"check", sequence}), "rgb");
 }
 
 TEST_F(Terminal, ResultsNameFilesEscaped) {
   const std::string sequence = scratch_ / "seq\x1b[31m";
-  write_tiny_sequence(sequence, 3);
+  write_tiny_sequence(sequence, 24);
   const RunResult result = run_odosplat({"cloud", sequence, "--every", "1", "--out", scratch_ / "c\x1b[0m.ply"});
   EXPECT_EQ(result.status, 0) << result.err;
   expect_clean(result, "c\\x1b[0m.ply");
@@ -100,11 +100,11 @@ TEST_F(Terminal, OutputThatIsNotTakenIsAnError) {
 
 TEST_F(Terminal, WarningLevelSilencesProgressAndDevice) {
   const std::string sequence = scratch_ / "seq";
-  write_tiny_sequence(sequence, 3);
+  write_tiny_sequence(sequence, 24);
   const Words words{"cloud", sequence, "--every", "1", "--out", scratch_ / "c.ply"};
   Words quiet = words;
   quiet.insert(quiet.end(), {"--log", "warning"});
-  EXPECT_THAT(run_odosplat(words).err, HasSubstr("3/3"));
+  EXPECT_THAT(run_odosplat(words).err, HasSubstr("24/24"));
   EXPECT_EQ(run_odosplat(quiet).err, "");
 }
 
