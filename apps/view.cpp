@@ -73,7 +73,7 @@ void run_trajectory(const TrajectoryViewFlags& flags) {
   // Of which images the run was is not known of other people's trajectories: their ends are not taken for lost.
   figure.span = judged.span.value_or(TimeSpan{figure.estimate.front().time, figure.estimate.back().time});
   require_near_origin(flags.estimate, figure.estimate);
-  require_near_origin(flags.truth, figure.truth);
+  require_near_origin(flags.truth.sequence.path, figure.truth);
   figure.title = flags.title;
   if (figure.title.empty() && !figure.truth.empty()) figure.title = error_title(figure.estimate, figure.truth);
   log_info("drawing " + std::to_string(figure.map.cloud.size()) + " points");

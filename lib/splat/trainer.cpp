@@ -183,7 +183,9 @@ TrainingStep Trainer::step() {
 }
 
 void Trainer::guard() {
-  const TrainingGuard::Verdict verdict = guard_.judge();
+  const TrainingGuard::Verdict verdict = guard_.judge(done());
+  log_debug("step " + std::to_string(iteration_) + ": mean PSNR " + std::to_string(guard_.last_db()) + " dB, " +
+            std::to_string(gaussians_.size()) + " Gaussians");
   if (verdict == TrainingGuard::Verdict::best) best_ = state();
   if (verdict != TrainingGuard::Verdict::fallen) return;
   const int fallen_at = iteration_;

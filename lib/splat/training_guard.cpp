@@ -23,14 +23,17 @@ void TrainingGuard::pause(int iteration) {
   steps_ = 0;
 }
 
-TrainingGuard::Verdict TrainingGuard::judge() {
+TrainingGuard::Verdict TrainingGuard::judge(bool at_end) {
   if (steps_ < least_steps) return Verdict::nothing;
   last_db_ = sum_db_ / steps_;
   steps_ = 0;
   const bool first = best_level_ < 0;
   const bool same_level = best_level_ == level_;
   // What is not a number has fallen.
-  if (!first && !(last_db_ >= best_db_ - (same_level ? fall_db : 2.0 * fall_db))) return Verdict::fallen;
+  if (!first && !(last_db_ >= best_db_ - (same_level ? fall_db : 2.0 * fall_db))) {
+    return ++falls_ >= patience || at_end || !std::isfinite(last_db_) ? Verdict::fallen : Verdict::nothing;
+  }
+  falls_ = 0;
   if (!std::isfinite(last_db_) || (same_level && last_db_ <= best_db_)) return Verdict::nothing;
   best_level_ = level_;
   best_db_ = last_db_;
@@ -44,7 +47,8 @@ std::vector<double> TrainingGuard::state() const {
           static_cast<double>(best_level_),
           best_db_,
           last_db_,
-          static_cast<double>(paused_until_)};
+          static_cast<double>(paused_until_),
+          static_cast<double>(falls_)};
 }
 
 void TrainingGuard::set_state(const std::vector<double>& state) {
@@ -52,9 +56,9 @@ void TrainingGuard::set_state(const std::vector<double>& state) {
     return state[i] >= least && state[i] <= std::numeric_limits<int>::max() && state[i] == std::floor(state[i]);
   };
   // Means may be no numbers: that is what a run that fell can be left with.
-  require(
-      state.size() == 7 && whole(0, 0.0) && whole(1, 0.0) && whole(3, -1.0) && std::isfinite(state[4]) && whole(6, 0.0),
-      "guard", "the state of a guard");
+  require(state.size() == 8 && whole(0, 0.0) && whole(1, 0.0) && whole(3, -1.0) && std::isfinite(state[4]) &&
+              whole(6, 0.0) && whole(7, 0.0),
+          "guard", "the state of a guard");
   level_ = static_cast<int>(state[0]);
   steps_ = static_cast<int>(state[1]);
   sum_db_ = state[2];
@@ -62,6 +66,7 @@ void TrainingGuard::set_state(const std::vector<double>& state) {
   best_db_ = state[4];
   last_db_ = state[5];
   paused_until_ = static_cast<int>(state[6]);
+  falls_ = static_cast<int>(state[7]);
 }
 
 }  // namespace odosplat

@@ -8,12 +8,14 @@
 namespace odosplat {
 
 /// Tells when training has fallen: the mean PSNR of the steps since the last judgement is more than fall_db below the
-/// best such mean before. From one image level to the next the images differ, so that twice the fall is allowed there;
-/// the best starts anew at each level. A mean of fewer than least_steps is not judged. Not thread safe.
+/// best such mean before, `patience` times in a row, since what densification adds takes a while to fit; at the end of
+/// training once is enough. From one image level to the next the images differ, so that twice the fall is allowed
+/// there; the best starts anew at each level. A mean of fewer than least_steps is not judged. Not thread safe.
 class TrainingGuard {
  public:
   static constexpr int interval = 100;    // [steps] between judgements
   static constexpr int least_steps = 20;  // that a judgement needs
+  static constexpr int patience = 4;      // judgements
   static constexpr double fall_db = 3.0;  // [dB]
 
   enum class Verdict {
@@ -26,12 +28,12 @@ class TrainingGuard {
   void add(int iteration, int level, double psnr_db);
   /// Steps up to `iteration` are not counted: what was done on purpose (an opacity reset) takes time to mend.
   void pause(int iteration);
-  Verdict judge();
+  Verdict judge(bool at_end = false);
   /// The mean that the last judgement was about, and the best so far [dB].
   double last_db() const { return last_db_; }
   double best_db() const { return best_db_; }
   /// After the state of the best was restored: the steps since are forgotten.
-  void went_back() { steps_ = 0; }
+  void went_back() { steps_ = falls_ = 0; }
 
   /// All of it for a checkpoint. set_state throws InputError for what is no such state.
   std::vector<double> state() const;
@@ -40,6 +42,7 @@ class TrainingGuard {
  private:
   int level_ = 0;
   int steps_ = 0;
+  int falls_ = 0;  // judgements in a row that were below the limit
   double sum_db_ = 0.0;
   int best_level_ = -1;  // none yet
   double best_db_ = 0.0;

@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
@@ -117,7 +119,7 @@ int widest_line(std::string text) {
 
 TEST(ProgressOnTerminal, FitsItsWidth) {
   const std::string detail = "loss 0.0412  PSNR 27.31 dB  150000 Gaussians  12.3 it/s  and more words";
-  for (const unsigned short columns : {20, 40, 80, 81, 200}) {
+  for (const std::uint16_t columns : std::vector<std::uint16_t>{20, 40, 80, 81, 200}) {
     const std::string drawn = drawn_on_terminal(columns, detail);
     EXPECT_LT(widest_line(drawn), columns) << drawn;
     EXPECT_THAT(drawn, HasSubstr("train [##"));
