@@ -51,9 +51,9 @@ struct SequenceOptions {
 ///                world and its unit are the model's own: see sparse_points() and `odosplat align`.
 ///   nerfstudio   transforms.json (or such a file by its own name): frames by `timestamp` [s] if they have it, else in
 ///                the natural order of their names, frame k at k / fps; one camera, given by the file or by every frame
-///                (common_camera), OPENCV or simpler, unless a camera file is given; names may lack .png, .jpg or .jpeg; depth_file_path in millimetres or as
-///                depth_unit_scale_factor says. The world is that of the stored poses and of ply_file_path;
-///                applied_transform is not undone. Masks are not used.
+///                (common_camera), OPENCV or simpler, unless a camera file is given; names may lack .png, .jpg or
+///                .jpeg; depth_file_path in millimetres or as depth_unit_scale_factor says. The world is that of the
+///                stored poses and of ply_file_path; applied_transform is not undone. Masks are not used.
 ///   images       PNG and JPEG files in natural order (2 before 10), with a camera file. No poses, no depth.
 ///   video        what FFmpeg decodes, with a camera file, turned as the video is to be shown (phones), at the stamps
 ///                of the container; frame k of a bare stream at k / fps of the camera file. All frames are decoded once

@@ -35,7 +35,8 @@ class TemporaryFile {
 };
 
 /// Removes temporary files of outputs called `name` or `name.ANYTHING`, such as a checkpoint's, in a folder (empty: of
-/// all outputs) that belong to this user and are held by no process. Locks do not reach other machines, so nothing is removed on network file systems. Never throws.
+/// all outputs) that belong to this user and are held by no process. Locks do not reach other machines, so nothing is
+/// removed on network file systems. Never throws.
 void remove_leftovers(const std::string& folder, const std::string& name);
 
 }  // namespace odosplat

@@ -64,8 +64,8 @@ struct TransformsFile {
 /// by `timestamp` (seconds) if the frames have it, else by the natural order of their names. D-NeRF's `time`, a phase
 /// in 0..1, is no stamp and not looked at.
 /// InputError(file, key or "frame N", fault): no JSON (with line and column), a key missing or of another kind, no
-/// rotation, a camera model that is not pinhole with radial and tangential distortion, a timestamp in some of the frames
-/// only or twice the same, names with control characters.
+/// rotation, a camera model that is not pinhole with radial and tangential distortion, a timestamp in some of the
+/// frames only or twice the same, names with control characters.
 TransformsFile parse_transforms(const std::string& name, const std::string& text);
 
 }  // namespace odosplat

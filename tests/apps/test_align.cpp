@@ -159,7 +159,7 @@ TEST_F(Align, RefusesWhatCannotBeTrusted) {
   expect_refused(align({"--pairs", scratch_ / "pairs.txt"}),
                  "pairs.txt: alignment: needs at least 3 pairs, there are 2");
   expect_refused(align({"--pairs", scratch_ / "no.txt"}), "no.txt: is missing");
-  expect_refused(align({"--inlier", "0"}), "inlier: must be positive");
+  expect_refused(align({"--inlier", "0"}), "inlier: must be a number above 0");
   expect_refused(align({"--pairs", scratch_ / "pairs.txt", "--guess", "1 0 0 0 0 0 0 1"}), "excludes");
   expect_refused(run_odosplat({"align", "--poses", colmap_, "--cloud", scratch_ / "no.ply", "--out", out_}), "no.ply");
   const RunResult own = run_odosplat({"align", "--poses", sequence_, "--cloud", cloud_, "--out", sequence_});

@@ -121,7 +121,7 @@ TEST(TransformsFile, TakesCamerasOfFrames) {
   EXPECT_EQ(camera.distortion, (std::vector<double>{0.1, 0, 0, -0.1, 0.3}));
   file["frames"][2]["k1"] = 0.2;
   EXPECT_THAT(error_of([&] { parse_transforms("t", file.dump()).camera("t", {}); }),
-              HasSubstr("t: frame 3 (images/7.png): has another camera than frame 1 (images/9.png)"));
+              HasSubstr("t: frame 3 (images/9.png): has another camera than frame 1 (images/7.png)"));
 }
 
 TEST(TransformsFile, CamerasThatDifferByLessThanHalfAPixelAreOne) {
@@ -132,7 +132,7 @@ TEST(TransformsFile, CamerasThatDifferByLessThanHalfAPixelAreOne) {
   file["frames"][1]["fl_x"] = 20.7;
   EXPECT_EQ(
       error_of([&] { parse_transforms("t", file.dump()).camera("t", {}); }),
-      "t: frame 2 (images/8.png): has another camera than frame 1 (images/9.png) (their intrinsics differ by 0.60 "
+      "t: frame 2 (images/8.png): has another camera than frame 1 (images/7.png) (their intrinsics differ by 0.60 "
       "px); a sequence has one (split the file by camera, or --camera)");
   file["frames"][1]["fl_x"] = 20.1;
   file["frames"][1]["w"] = 20;
