@@ -188,9 +188,6 @@ bool is_splat_path(const std::string& path) {
 
 bool is_map_file(const std::string& path) {
   if (is_splat_path(path)) return true;
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) return false;
-  require_regular_file(path);
   const std::string start = first_bytes(path);
   const bool is_marked = start.starts_with(byte_order_mark);
   if (!std::string_view(start).substr(is_marked ? byte_order_mark.size() : 0).starts_with("ply")) return false;
