@@ -64,7 +64,8 @@ std::string difference_text(const Part& part, const Convention& winner, const Co
   if (&part == &parts[0]) {
     text += " (or reflect the poses: F T F with F = diag(1, -1, 1))";
   } else if (winner.id_shift != declared.id_shift && &part == &parts[2]) {
-    text += " (image k belongs to the pose of image k " + std::string(winner.id_shift > 0 ? "+" : "-") + " 1)";
+    text += " (image k belongs to the pose of image k ";
+    text += winner.id_shift > 0 ? "+ 1)" : "- 1)";
   }
   return text;
 }
