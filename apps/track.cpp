@@ -38,11 +38,12 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence, const FrameRange& 
   for (std::size_t i = range.begin; i < range.end; ++i) {
     if (!sequence.T_world_camera(i)) continue;
     if (i > range.begin)
-      throw InputError(sequence.name(), "its first image has no true pose to start from; give --start");
+      throw InputError(sequence.name(), "its first image has no true pose to start from; give --start auto or a pose");
     log_info("start pose: the sequence's first true pose; nothing more of the truth is used");
     return *sequence.T_world_camera(i);
   }
-  throw InputError(sequence.name(), "it has no true pose to start from; give --start \"tx ty tz qx qy qz qw\"");
+  throw InputError(sequence.name(),
+                   "it has no true pose to start from; give --start auto, or --start \"tx ty tz qx qy qz qw\"");
 }
 
 /// Shows the frame's depth to a sensor's view, which a keyframe that is made later must still see; null for maps.
@@ -126,6 +127,11 @@ class Run {
       status = result.status;
     }
     const OdometryStatistics s = odometry_.statistics();
+    if (!s.likely_cause.empty() && !warned_of_camera_) {
+      warned_of_camera_ = true;
+      log_warning(sequence_.name() + ": " + s.likely_cause +
+                  ", compared with what is said of the camera; poses that this moves by centimetres are refused");
+    }
     std::string words = to_string(status) + "  " + std::to_string(s.keyframes) + " keyframes  " +
                         std::to_string(s.lost + static_cast<int>(record_.unreadable())) + " lost";
     if (record_.dropped() > 0) words += "  " + std::to_string(record_.dropped()) + " dropped";
@@ -173,6 +179,7 @@ class Run {
   Stopwatch since_write_;
   double next_write_ = 5.0;  // [s] after the last time
   std::size_t written_ = 0;  // frames tracked when it was written
+  bool warned_of_camera_ = false;
 };
 
 }  // namespace

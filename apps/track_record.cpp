@@ -26,6 +26,21 @@ std::string csv_field(std::string text) {
   return quoted + "\"";
 }
 
+/// Why an image that was read got no pose.
+const char* reason_lost(const MapEvidence& evidence) {
+  switch (evidence.verdict) {
+    case Confirmation::contradicted:
+      return "the map shows something else from where it fits best";
+    case Confirmation::undecided:
+      return "image and map agree in part only";
+    case Confirmation::confirmed:
+      return "the camera seems not to be the one that the file describes";
+    case Confirmation::none:
+      break;
+  }
+  return "found neither near the last pose nor in the map";
+}
+
 }  // namespace
 
 void TrackRecord::add(const Sequence& sequence, std::size_t i, const TrackResult& result) {
@@ -78,6 +93,10 @@ void TrackRecord::write(const TrackJob& job, const TrackOutcome& o, const Odomet
                                 {"lost", o.lost},
                                 {"unreadable", unreadable_},
                                 {"relocalisations", o.relocalisations},
+                                {"confirmed", s.confirmed},
+                                {"unconfirmed", s.posed - s.confirmed},
+                                {"refused", s.refused},
+                                {"camera", s.likely_cause},
                                 {"keyframes", o.keyframes},
                                 {"ms_per_frame", {{"median", o.median_ms}, {"p95", o.p95_ms}}},
                                 {"cpu_ms_per_frame", o.cpu_ms},
@@ -101,14 +120,20 @@ void TrackRecord::write(const TrackJob& job, const TrackOutcome& o, const Odomet
 }
 
 std::string TrackRecord::status_table(const std::vector<double>& keyframe_times) const {
-  std::string table = "time,status,keyframe,inlier_share,milliseconds,map_share,in_map,reason\n";
+  std::string table = "time,status,keyframe,inlier_share,milliseconds,map_share,in_map,confirmed,reason\n";
   for (const Row& row : rows_) {
     const bool keyframe = std::binary_search(keyframe_times.begin(), keyframe_times.end(), row.time);
     char line[160];
     std::snprintf(line, sizeof(line), ",%s,%d,%.4f,%.3f,%.4f,%d,", to_string(row.result.status).c_str(),
                   keyframe ? 1 : 0, row.result.inlier_share, row.result.milliseconds, row.result.map_share,
                   row.result.in_map ? 1 : 0);
-    table += row.stamp + line + csv_field(row.reason) + "\n";
+    char confirmed[16] = ",";
+    if (row.result.evidence.verdict != Confirmation::none) {
+      std::snprintf(confirmed, sizeof(confirmed), "%.4f,", row.result.evidence.probability);
+    }
+    const bool unexplained = row.result.status == TrackStatus::lost && row.reason.empty();
+    table +=
+        row.stamp + line + confirmed + csv_field(unexplained ? reason_lost(row.result.evidence) : row.reason) + "\n";
   }
   return table;
 }

@@ -17,10 +17,6 @@ void AcceptOptions::check() const {
   require(min_contrast >= 0.0 && max_contrast > min_contrast, "accept.min_contrast", "in [0, max_contrast)");
   require(min_correlation >= -1.0 && min_correlation <= 1.0, "accept.min_correlation", "in [-1, 1]");
   require(sure_correlation >= min_correlation, "accept.sure_correlation", "at least min_correlation");
-  require(min_map_correlation >= -1.0 && min_map_correlation <= 1.0, "accept.min_map_correlation", "in [-1, 1]");
-  require(sure_map_correlation >= min_map_correlation && sure_map_correlation <= 1.0, "accept.sure_map_correlation",
-          "in [min_map_correlation, 1]");
-  require(min_map_share >= 0.0 && min_map_share <= 1.0, "accept.min_map_share", "in [0, 1]");
   require(motion_translation > 0.0 && motion_rotation > 0.0, "accept.motion_translation and motion_rotation",
           "positive");
   require(retrack >= 1.0, "accept.retrack", "at least 1");
@@ -53,10 +49,16 @@ TrackedFrame FrameTracker::track(std::shared_ptr<const FramePyramid> pyramid, do
   const Alignment& alignment = frame.alignment;
   const ReferenceFrame& host = reference();
   frame.doubtful = !lost_ && !as_good_as_last(alignment) && alignment.correlation < options_.accept.sure_correlation;
+  frame.after_gap = history_.has_velocity && steps_ahead(history_, time) == 0.0;
   frame.keyframe = host.id;
   frame.T_keyframe_camera = alignment.T_target_host.inverse();
   frame.T_world_camera = host.T_world_camera * frame.T_keyframe_camera;
   frame.brightness = compose_brightness(alignment.brightness, host.brightness);
+  if (host.patches != nullptr) {
+    frame.evidence = host.patches->compare(*frame.image.even, frame.T_world_camera);
+    frame.verifiable = host.in_map;
+    frame.misfit = host.misfit;
+  }
   // exp(xi) right of T_target_host is exp(-Ad xi) left of T_world_camera.
   const Matrix6d adjoint = host.T_world_camera.adjoint();
   Matrix6d information = alignment.information;

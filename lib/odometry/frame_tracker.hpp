@@ -24,11 +24,6 @@ struct AcceptOptions {
   // images, too (median 0.99); images of another place or room, aligned as well as they can be, 0.07.
   double min_correlation = 0.5;
   double sure_correlation = 0.9;  // below, a frame that fits worse than the last one is looked up: is it elsewhere?
-  // Of a keyframe with the map's rendered view, which must cover min_map_share of it. Right poses reach 0.71 and more
-  // in the coarsest map. Where it falls below from one keyframe to the next, the camera is looked for elsewhere.
-  double min_map_correlation = 0.3;
-  double sure_map_correlation = 0.7;  // a start pose is believed from here on; until then it is looked up
-  double min_map_share = 0.6;
   // Of the deviation from constant velocity between two frames: holds what the image does not tell.
   double motion_translation = 0.005;  // [m] standard deviation
   double motion_rotation = 0.005;     // [rad] standard deviation
@@ -61,7 +56,11 @@ struct TrackedFrame {
   // Of exp(xi) on the left of T_world_camera, before any factor: of the alignment alone, and of the keyframe.
   Matrix6d covariance = Matrix6d::Zero();
   Matrix6d keyframe_covariance = Matrix6d::Zero();
+  MapEvidence evidence;         // what the map, seen from about the keyframe, says about the pose
   bool doubtful = false;        // believed, but it fits worse than the last frame: is it elsewhere?
+  MisfitEffect misfit;          // of the camera on the keyframe's pose
+  bool verifiable = false;      // the map has colours, and the keyframe's depth is the map's
+  bool after_gap = false;       // the last frame is several intervals old
   double keyframe_score = 0.0;  // beyond 1 the frame should become a keyframe
   bool keyframe_due() const { return keyframe_score > 1.0; }
 };

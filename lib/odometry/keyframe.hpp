@@ -9,6 +9,7 @@
 #include "odosplat/core/se3.hpp"
 #include "odosplat/odometry/frame.hpp"
 #include "odosplat/odometry/immature_point.hpp"
+#include "odosplat/odometry/map_confirmation.hpp"
 #include "odosplat/odometry/map_plane.hpp"
 #include "odosplat/odometry/residual_pattern.hpp"
 #include "odosplat/odometry/tracking_reference.hpp"
@@ -70,6 +71,9 @@ struct Keyframe {
   std::vector<ImmaturePoint> immature;
   std::vector<Anchor> anchors;
   std::shared_ptr<const TrackingReference> reference;  // this image with the map's depth, for tracking later frames
+  std::shared_ptr<const ViewPatches> patches;  // of the map seen from about here, to confirm poses by; null: no colours
+  bool in_map = false;                         // its depth is the map's
+  MisfitEffect misfit;                         // of its camera on its pose
 };
 
 }  // namespace odosplat

@@ -11,7 +11,7 @@
 namespace odosplat {
 namespace {
 
-enum StageIndex : std::size_t { stage_render, stage_keyframe, stage_optimise, stage_trace };
+enum StageIndex : std::size_t { stage_render, stage_keyframe, stage_optimise, stage_trace, stage_confirm };
 
 constexpr double recalled_flow = 0.5;  // [px] a keyframe that others move further is rendered from its new place
 
@@ -21,8 +21,18 @@ void DriftOptions::check() const {
   require(translation >= 0.0 && rotation >= 0.0, "drift.translation and rotation", "at least 0");
 }
 
+Matrix6d drift_covariance(const DriftOptions& options, const SE3& T_world_camera) {
+  Vector6d variance;
+  variance << Eigen::Vector3d::Constant(options.translation * options.translation),
+      Eigen::Vector3d::Constant(options.rotation * options.rotation);
+  const Matrix6d at_camera = SE3(Eigen::Quaterniond::Identity(), T_world_camera.translation()).adjoint();
+  return at_camera * variance.asDiagonal() * at_camera.transpose();
+}
+
 void KeyframeBackendOptions::check() const {
   keyframe.check();
+  confirmation.check();
+  misfit.check();
   memory.check();
   window.check();
   optimizer.check();
@@ -39,6 +49,7 @@ KeyframeBackend::KeyframeBackend(const Camera& camera, MapView& map, const Track
       options_(options),
       maker_(options.keyframe),
       optimizer_(options.optimizer),
+      misfit_(options.misfit),
       memory_(camera, options.memory) {
   options_.check();
 }
@@ -84,6 +95,12 @@ MadeKeyframe KeyframeBackend::make_from(const RenderedView& view, const Keyframe
   return make();
 }
 
+std::shared_ptr<const ViewPatches> KeyframeBackend::patches_of(const RenderedView& view) {
+  if (!options_.confirmation.enabled || view.images.color.empty()) return nullptr;
+  const StageTimer timer(stages_[stage_confirm]);
+  return std::make_shared<ViewPatches>(camera_, view, options_.keyframe.smoothing, options_.confirmation);
+}
+
 std::vector<Recollection> KeyframeBackend::recall(const FramePyramid& image, const SE3& T_world_camera) {
   const StageTimer timer(stages_[stage_keyframe]);
   return memory_.recall(image, T_world_camera, tracker_);
@@ -96,6 +113,7 @@ KeyframeBackend::Attempt KeyframeBackend::make_recalled(const RenderedView& view
   context.distrust_map = false;  // it is seen from where the camera is
   Attempt result;
   result.made = make_from(view, request, context, image, gradients);
+  result.patches = patches_of(view);
   result.corrected = recalled.front().flow;
   MadeKeyframe& made = result.made;
   if (made.keyframe == nullptr) return result;
@@ -158,6 +176,7 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, E
     T_world_keyframe = made.T_world_camera_map;
     if (made.map_flow <= anchor.render_again_flow) break;
   }
+  result.patches = patches_of(view);
   if (outside_ && corrected > 0.0 && (!made.anchored || made.map_flow > anchor.render_again_flow)) {
     // A place that the map gives and does not confirm from there is no way back into it.
     const double map_share = made.map_share;
@@ -212,10 +231,9 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
     const StageTimer timer(stages_[stage_keyframe]);
     gradients = build_gradients(*image.even);
   }
-  auto [made, corrected, prefetched, links] = make(request, image, gradients);
+  auto [made, corrected, prefetched, links, patches] = make(request, image, gradients);
   KeyframeOutcome outcome;
   outcome.map_share = made.map_share;
-  outcome.map_correlation = made.anchor.correlation;
   if (made.keyframe == nullptr) return outcome;
   outcome.made = true;
   outcome.anchored = made.anchored;
@@ -226,6 +244,8 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   keyframe->frame = request.frame;
   keyframe->time = request.time;
   keyframe->T_world_tracked = keyframe->T_world_camera;
+  keyframe->patches = patches;
+  keyframe->in_map = made.in_map;
   const bool far = corrected > options_.keyframe.anchor.reset_flow;
   if (made.anchored && (outside_ || far)) come_back(keyframe->T_world_camera * request.T_world_camera.inverse(), far);
   if (!made.in_map) {
@@ -249,6 +269,15 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
                        options_.keyframe.reference);
   keyframe->reference = std::make_shared<TrackingReference>(std::move(made.reference));
   if (links) memory_.remember(keyframe, *links);
+  if (patches != nullptr) {
+    const StageTimer confirm_timer(stages_[stage_confirm]);
+    outcome.evidence = patches->compare(*image.even, keyframe->T_world_camera);
+    if (outcome.evidence.verdict == Confirmation::confirmed) {
+      outcome.misfit = misfit_.add(*patches, *image.even, keyframe->T_world_camera);
+      outcome.likely_cause = misfit_.likely_cause(camera_);
+      keyframe->misfit = outcome.misfit;
+    }
+  }
   outcome.window = references();
   return outcome;
 }
@@ -261,18 +290,14 @@ RenderedView KeyframeBackend::seen_from(MapView& map, const SE3& T_world_camera)
 }
 
 Matrix6d KeyframeBackend::covariance(const Keyframe& keyframe) const {
-  const DriftOptions& drift = options_.drift;
-  Vector6d variance;
-  variance << Eigen::Vector3d::Constant(drift.translation * drift.translation),
-      Eigen::Vector3d::Constant(drift.rotation * drift.rotation);
-  const Matrix6d at_camera = SE3(Eigen::Quaterniond::Identity(), keyframe.T_world_camera.translation()).adjoint();
-  return keyframe.covariance + keyframe.outside * (at_camera * variance.asDiagonal() * at_camera.transpose());
+  return keyframe.covariance + keyframe.outside * drift_covariance(options_.drift, keyframe.T_world_camera);
 }
 
 std::vector<ReferenceFrame> KeyframeBackend::references() const {
   std::vector<ReferenceFrame> references;
   for (const auto& k : window_.keyframes) {
-    references.push_back({k->id, k->T_world_camera, k->brightness, covariance(*k), k->reference});
+    references.push_back(
+        {k->id, k->T_world_camera, k->brightness, covariance(*k), k->reference, k->patches, k->in_map, k->misfit});
   }
   return references;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "odosplat/map/map_view.hpp"
+#include "odosplat/odometry/camera_misfit.hpp"
 #include "odosplat/odometry/keyframe_maker.hpp"
 #include "odosplat/odometry/keyframe_memory.hpp"
 #include "odosplat/odometry/marginalisation.hpp"
@@ -30,8 +31,13 @@ struct DriftOptions {
   void check() const;
 };
 
+/// Covariance of exp(xi) on the left of T_world_camera that one keyframe adds.
+Matrix6d drift_covariance(const DriftOptions& options, const SE3& T_world_camera);
+
 struct KeyframeBackendOptions {
   KeyframeMakerOptions keyframe;
+  ConfirmationOptions confirmation;
+  CameraMisfitOptions misfit;
   KeyframeMemoryOptions memory;
   WindowOptions window;
   WindowOptimizerOptions optimizer;
@@ -63,12 +69,14 @@ struct KeyframeRequest {
 
 /// What came of it.
 struct KeyframeOutcome {
-  bool made = false;        // false: too little depth there; the window is as it was
-  bool anchored = false;    // held by the map's colours, or by keyframes that these held before
-  bool prefetched = false;  // made from the view that was rendered ahead
-  bool in_map = false;      // the map alone gives depth enough; else the camera goes by what it has seen on its way
-  double map_share = 0.0;   // share of the image where the map has depth
-  double map_correlation = 0.0;        // of the image with the map's rendered view at its points, -1..1
+  bool made = false;         // false: too little depth there; the window is as it was
+  bool anchored = false;     // held by the map's colours, or by keyframes that these held before
+  bool prefetched = false;   // made from the view that was rendered ahead
+  bool in_map = false;       // the map alone gives depth enough; else the camera goes by what it has seen on its way
+  double map_share = 0.0;    // share of the image where the map has depth
+  MapEvidence evidence;      // of the image and the map at the keyframe's pose
+  MisfitEffect misfit;       // of what is wrong with the camera on the keyframe's pose
+  std::string likely_cause;  // what that is; empty: nothing that stands out
   std::vector<ReferenceFrame> window;  // all keyframes as they are now, oldest first
 };
 
@@ -94,7 +102,7 @@ class KeyframeBackend {
   void trace(const TrackedImage& image);
 
   const Window& window() const { return window_; }
-  /// render, keyframe, optimise, trace.
+  /// render, keyframe, optimise, trace, confirm.
   const std::vector<StageTime>& stages() const { return stages_; }
 
  private:
@@ -102,10 +110,13 @@ class KeyframeBackend {
   /// A keyframe as it was made last, of several renderings maybe.
   struct Attempt {
     MadeKeyframe made;
-    double corrected = 0.0;    // [px] farthest that the map has moved it from where it was tracked
-    bool prefetched = false;   // made from the view that was rendered ahead
-    std::optional<int> links;  // to the map, if the keyframe is fit to be remembered
+    double corrected = 0.0;                      // [px] farthest that the map has moved it from where it was tracked
+    bool prefetched = false;                     // made from the view that was rendered ahead
+    std::optional<int> links;                    // to the map, if the keyframe is fit to be remembered
+    std::shared_ptr<const ViewPatches> patches;  // of the view that it was made from
   };
+  /// What poses near the view are confirmed by; null where the view has no colours or nothing is to be confirmed.
+  std::shared_ptr<const ViewPatches> patches_of(const RenderedView& view);
   /// The keyframe as this view gives it. Makes image and gradients even where the map shows that they are not.
   MadeKeyframe make_from(const RenderedView& view, const KeyframeRequest& request, const KeyframeContext& context,
                          EvenFrame& image, std::vector<GradientImage>& gradients);
@@ -129,11 +140,12 @@ class KeyframeBackend {
   KeyframeBackendOptions options_;
   KeyframeMaker maker_;
   WindowOptimizer optimizer_;
+  CameraMisfit misfit_;
   KeyframeMemory memory_;
   Window window_;
   std::optional<RenderedView> prefetched_;
   bool outside_ = false;  // the map has been left and has not been found again
-  std::vector<StageTime> stages_{{"render"}, {"keyframe"}, {"optimise"}, {"trace"}};
+  std::vector<StageTime> stages_{{"render"}, {"keyframe"}, {"optimise"}, {"trace"}, {"confirm"}};
 };
 
 }  // namespace odosplat

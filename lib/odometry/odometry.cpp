@@ -13,8 +13,6 @@ namespace {
 
 enum StageIndex : std::size_t { stage_pyramid, stage_track, stage_relocalise };
 
-constexpr int most_start_lookups = 3;  // keyframes: the first may show nothing that is found
-
 bool shows_nothing(const FramePyramid& pyramid) {
   constexpr double least_spread = 1.0 / 255;
   cv::Scalar mean;
@@ -28,6 +26,8 @@ bool shows_nothing(const FramePyramid& pyramid) {
 void OdometryOptions::check() const {
   tracker.check();
   keyframe.check();
+  confirmation.check();
+  misfit.check();
   memory.check();
   policy.check();
   window.check();
@@ -39,6 +39,9 @@ void OdometryOptions::check() const {
   require(frame_covariance_factor > 0.0, "frame_covariance_factor", "positive");
   require(keyframe_covariance_factor > 0.0, "keyframe_covariance_factor", "positive");
   require(prefetch_images >= 0.0, "prefetch_images", "at least 0");
+  require(max_unconfirmed >= 0, "max_unconfirmed", "at least 0");
+  require(max_misfit_translation > 0.0 && max_misfit_rotation > 0.0, "max_misfit_translation and max_misfit_rotation",
+          "positive");
 }
 
 std::string to_string(TrackStatus status) {
@@ -59,8 +62,8 @@ Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& op
       T_world_camera_start_(T_world_camera_start),
       front_({options.tracker, options.policy, options.accept}),
       backend_(camera, map, front_.aligner(),
-               {options.keyframe, options.memory, options.window, options.optimizer, options.marginalisation,
-                options.activation, options.drift}) {
+               {options.keyframe, options.confirmation, options.misfit, options.memory, options.window,
+                options.optimizer, options.marginalisation, options.activation, options.drift}) {
   camera_.check();
   check_least_size(camera_);
   options_.check();
@@ -97,18 +100,34 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
   } else {
     // Until the first keyframe stands, the camera is where the caller said.
     request.T_world_camera = *T_world_camera_start_;
-    start_lookups_ = most_start_lookups;
     make_keyframe(request, result);
-    if (result.keyframe) {
+    if (result.keyframe && !stands(keyframe_evidence_, keyframe_misfit_, true)) {
+      result = {};
+      result.evidence = keyframe_evidence_;
+      ++counts_.refused;
+      relocalise(image, request, result);
+    } else if (result.keyframe) {
       result.status = TrackStatus::ok;
       result.inlier_share = 1.0;
       result.coverage = 1.0;
-      look_up_contradicted(image, request, result);
+      result.evidence = keyframe_evidence_;
+    } else if (options_.confirmation.enabled) {
+      relocalise(image, request, result);  // the map shows nothing from there
     }
   }
   result.map_share = map_share_;
-  result.map_correlation = map_correlation_;
-  result.in_map = in_map_ && result.status != TrackStatus::lost;
+  if (result.status != TrackStatus::lost) {
+    const bool confirmed = result.evidence.verdict == Confirmation::confirmed;
+    unconfirmed_ = confirmed ? 0 : unconfirmed_ + 1;
+    if (confirmed) {
+      ++counts_.confirmed;
+      to_be_confirmed_ = false;
+    }
+    const bool verifiable = front_.newest().patches != nullptr;
+    const bool agrees_in_part = result.evidence.verdict == Confirmation::undecided;
+    result.in_map = in_map_ && (!verifiable || (!agrees_in_part && unconfirmed_ <= options_.max_unconfirmed));
+    if (in_map_ && !result.in_map) result.covariance += drift(result.T_world_camera);
+  }
   if (result.status == TrackStatus::lost) {
     result.T_world_camera = SE3();
     front_.lose();
@@ -137,11 +156,19 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
     relocalise(image, request, result);
     return;
   }
+  result.evidence = frame.evidence;
+  if (frame.verifiable &&
+      !stands(frame.evidence, frame.misfit, frame.was_lost || frame.after_gap || to_be_confirmed_)) {
+    ++counts_.refused;
+    relocalise(image, request, result);
+    return;
+  }
   if (frame.doubtful && relocalise(image, request, result, frame.T_world_camera)) return;
   result.status = frame.was_lost ? TrackStatus::relocalised : TrackStatus::ok;
   result.T_world_camera = frame.T_world_camera;
   result.covariance = options_.frame_covariance_factor * frame.covariance +
-                      options_.keyframe_covariance_factor * frame.keyframe_covariance;
+                      options_.keyframe_covariance_factor * frame.keyframe_covariance + frame.misfit.covariance;
+  result.misfit = frame.misfit.meters;
   record_.add_frame(request.time, frame.keyframe, frame.T_keyframe_camera, frame.was_lost);
   request.T_world_camera = frame.T_world_camera;
   request.brightness = frame.brightness;
@@ -154,10 +181,31 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
   }
   if (frame.keyframe_due()) {
     make_keyframe(request, result);
-    if (result.keyframe) look_up_contradicted(image, request, result);
+    if (!result.keyframe) return;
+    if (keyframe_evidence_.verdict == Confirmation::confirmed) result.evidence = keyframe_evidence_;
+    if (to_be_confirmed_ && result.evidence.verdict != Confirmation::confirmed) {
+      result = {};
+      result.evidence = keyframe_evidence_;
+      ++counts_.refused;
+      relocalise(image, request, result);
+    }
   } else if (thread_ != nullptr && request.view == nullptr) {
     render_ahead(frame, request.time);
   }
+}
+
+bool Odometry::stands(const MapEvidence& evidence, const MisfitEffect& misfit, bool to_be_confirmed) const {
+  if (front_.empty() || front_.newest().patches == nullptr) return true;
+  if (misfit.significant &&
+      (misfit.meters > options_.max_misfit_translation || misfit.radians > options_.max_misfit_rotation)) {
+    return false;
+  }
+  if (evidence.verdict == Confirmation::confirmed) return true;
+  return !to_be_confirmed && evidence.verdict != Confirmation::contradicted;
+}
+
+Matrix6d Odometry::drift(const SE3& T_world_camera) const {
+  return unconfirmed_ * drift_covariance(options_.drift, T_world_camera);
 }
 
 bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request, TrackResult& result,
@@ -188,7 +236,9 @@ bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request
   TrackResult made;
   front_.lose();  // how the camera came here is not known, nor what was believed of this frame
   make_keyframe(afresh, made);
-  if (!made.keyframe) return false;
+  if (!made.keyframe || !stands(keyframe_evidence_, keyframe_misfit_, true)) return false;
+  result.evidence = keyframe_evidence_;
+  result.misfit = made.misfit;
   result.status = TrackStatus::relocalised;
   result.T_world_camera = made.T_world_camera;
   result.covariance = made.covariance;
@@ -197,25 +247,6 @@ bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request
   result.inlier_share = answer.inlier_share;
   result.coverage = 1.0;
   return true;
-}
-
-bool Odometry::map_contradicts() {
-  const AcceptOptions& accept = options_.accept;
-  const bool agreed = map_agreed_;
-  map_agreed_ = map_correlation_ >= accept.min_map_correlation;
-  if (!options_.keyframe.anchor.enabled || map_share_ < accept.min_map_share) return false;
-  if (map_correlation_ >= accept.sure_map_correlation) start_lookups_ = 0;
-  if (start_lookups_ == 0) return agreed && !map_agreed_;
-  --start_lookups_;
-  return true;
-}
-
-void Odometry::look_up_contradicted(const GrayImage& image, const KeyframeRequest& request, TrackResult& result) {
-  if (!map_contradicts()) return;
-  // A pose that the map has pulled into place is only given up for one elsewhere.
-  std::optional<SE3> T_world_tracked;
-  if (result.anchored) T_world_tracked = result.T_world_camera;
-  if (relocalise(image, request, result, T_world_tracked)) start_lookups_ = 0;
 }
 
 void Odometry::finish() {
@@ -240,7 +271,8 @@ void Odometry::make_keyframe(const KeyframeRequest& request, TrackResult& result
   }
   if (counts_.keyframes == before) return;
   result.T_world_camera = front_.newest().T_world_camera;
-  result.covariance = options_.keyframe_covariance_factor * front_.newest().covariance;
+  result.covariance = options_.keyframe_covariance_factor * front_.newest().covariance + keyframe_misfit_.covariance;
+  result.misfit = keyframe_misfit_.meters;
   result.keyframe = true;
   result.anchored = counts_.anchored > anchored_before;
 }
@@ -253,10 +285,14 @@ void Odometry::take_over_finished(const std::optional<FinishedKeyframe>& finishe
 
 void Odometry::take_over(const KeyframeRequest& request, const KeyframeOutcome& outcome) {
   map_share_ = outcome.map_share;
-  map_correlation_ = outcome.map_correlation;
+  keyframe_evidence_ = outcome.evidence;
+  keyframe_misfit_ = outcome.misfit;
+  if (outcome.made) counts_.likely_cause = outcome.likely_cause;
   rendered_ahead_ = false;
   if (!outcome.made) return;
   in_map_ = outcome.in_map;
+  to_be_confirmed_ =
+      in_map_ && outcome.evidence.verdict != Confirmation::none && !stands(outcome.evidence, outcome.misfit, false);
   const ReferenceFrame& keyframe = outcome.window.back();
   record_.add_keyframe(request.time, keyframe.T_world_camera, request.fresh);
   for (const ReferenceFrame& k : outcome.window) record_.move_keyframe(k.id, k.T_world_camera);

@@ -21,6 +21,8 @@ class Relocalizer;
 struct OdometryOptions {
   TrackerOptions tracker;
   KeyframeMakerOptions keyframe;
+  ConfirmationOptions confirmation;
+  CameraMisfitOptions misfit;
   KeyframeMemoryOptions memory;
   KeyframePolicyOptions policy;
   WindowOptions window;
@@ -43,6 +45,12 @@ struct OdometryOptions {
   /// background: the map is rendered ahead, at the pose where the next keyframe is expected, this many images before.
   /// Two images ahead constant velocity is right to 2 px in 84 % of the cases (icl_office_kt3), three ahead in 64 %.
   double prefetch_images = 2.0;
+  /// Frames about which the map says nothing, beyond which a pose no longer counts as one in the map.
+  int max_unconfirmed = 10;
+  /// A pose is refused where a wrong camera seems to have moved it by more than this: from there on, what is estimated
+  /// of the camera is itself too rough to stand in a covariance.
+  double max_misfit_translation = 0.05;  // [m]
+  double max_misfit_rotation = 0.04;     // [rad]
 
   void check() const;
 };
@@ -58,15 +66,20 @@ struct TrackResult {
   TrackStatus status = TrackStatus::lost;
   SE3 T_world_camera;                      // identity when lost: no pose is made up
   Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera; zero when lost
-  bool keyframe = false;         // became a keyframe; with options.background that comes later: see keyframe_times()
-  double inlier_share = 0.0;     // of the points in view
-  double coverage = 0.0;         // share of the reference keyframe's points in view
-  double rmse = 0.0;             // [grey] of the inliers
-  double correlation = 0.0;      // of the image with the reference keyframe at its points, -1..1
-  double map_correlation = 0.0;  // the same with the map's rendered view, of the last that was tried as keyframe
-  double map_share = 0.0;        // share of the image where the map has depth, of the last that was tried as keyframe
-  bool in_map = false;           // the last keyframe has its depth from the map; false: plain odometry beyond it
-  bool anchored = false;         // a keyframe that the map's colours hold in place, or keyframes that these held before
+  bool keyframe = false;      // became a keyframe; with options.background that comes later: see keyframe_times()
+  double inlier_share = 0.0;  // of the points in view
+  double coverage = 0.0;      // share of the reference keyframe's points in view
+  double rmse = 0.0;          // [grey] of the inliers
+  double correlation = 0.0;   // of the image with the reference keyframe at its points, -1..1
+  double map_share = 0.0;     // share of the image where the map has depth, of the last that was tried as keyframe
+  /// What the map says about the pose; Confirmation::none where it was not asked, as in maps without colours.
+  MapEvidence evidence;
+  /// The last keyframe has its depth from the map, and the map has confirmed this pose, or says nothing about it and
+  /// has confirmed one of the options.max_unconfirmed before (a map without colours is believed as it is). false: plain
+  /// odometry.
+  bool in_map = false;
+  bool anchored = false;  // a keyframe that the map's colours hold in place, or keyframes that these held before
+  double misfit = 0.0;  // [m] how far a camera that is not quite right seems to have moved the pose; in its covariance
   double milliseconds = 0.0;
 };
 
@@ -79,7 +92,10 @@ struct OdometryStatistics {
   int relocalisations = 0;
   int keyframes = 0;
   int anchored = 0;
-  int prefetched = 0;  // keyframes made from a view that was rendered ahead
+  int prefetched = 0;        // keyframes made from a view that was rendered ahead
+  int confirmed = 0;         // posed frames that the map has confirmed
+  std::string likely_cause;  // what is wrong with the camera, by its keyframes; empty: nothing that stands out
+  int refused = 0;  // frames that were tracked but that the map spoke against, or did not confirm where it had to
 };
 
 /// Direct sparse odometry in a prior map: every image gets its pose in the map's frame.
@@ -130,11 +146,11 @@ class Odometry {
   /// tracking has it (T_world_tracked).
   bool relocalise(const GrayImage& image, const KeyframeRequest& request, TrackResult& result,
                   const std::optional<SE3>& T_world_tracked = std::nullopt);
-  /// Whether the last keyframe's map view speaks against its pose: the map has just stopped to look like the images,
-  /// or never did since a start whose pose was given.
-  bool map_contradicts();
-  /// Looks the newest keyframe's image up if the map contradicts its pose.
-  void look_up_contradicted(const GrayImage& image, const KeyframeRequest& request, TrackResult& result);
+  /// Whether a pose may stand, by what the map says about it. to_be_confirmed: it does not follow from a pose that the
+  /// map has confirmed.
+  bool stands(const MapEvidence& evidence, const MisfitEffect& misfit, bool to_be_confirmed) const;
+  /// What is added to the covariance of a pose that the map has long not confirmed: as for keyframes outside of it.
+  Matrix6d drift(const SE3& T_world_camera) const;
   void make_keyframe(const KeyframeRequest& request, TrackResult& result);
   void take_over(const KeyframeRequest& request, const KeyframeOutcome& outcome);
   void take_over_finished(const std::optional<FinishedKeyframe>& finished);
@@ -148,15 +164,16 @@ class Odometry {
   TrajectoryRecord record_;
   std::vector<StageTime> stages_{{"pyramid"}, {"track"}, {"relocalise"}};
   std::vector<StageTime> backend_stages_;
-  OdometryStatistics counts_;  // without stages
-  double map_share_ = 0.0;     // of the last image that was tried as keyframe
-  double map_correlation_ = 0.0;
-  bool in_map_ = false;  // of the last keyframe
+  OdometryStatistics counts_;      // without stages
+  double map_share_ = 0.0;         // of the last image that was tried as keyframe
+  MapEvidence keyframe_evidence_;  // of the last image that was tried as keyframe
+  MisfitEffect keyframe_misfit_;   // the same
+  bool in_map_ = false;            // of the last keyframe
   bool rendered_ahead_ = false;
   Relocalizer* relocalizer_ = nullptr;
   int lost_in_a_row_ = 0;                   // images that show something
-  bool map_agreed_ = false;                 // at the last keyframe
-  int start_lookups_ = 0;                   // left, of a given start pose that the map has not confirmed
+  int unconfirmed_ = 0;                     // posed frames since the map has confirmed one
+  bool to_be_confirmed_ = false;            // the map spoke against the last keyframe
   std::unique_ptr<KeyframeThread> thread_;  // last: it uses the back end until it is gone
 };
 

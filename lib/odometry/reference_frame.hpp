@@ -6,6 +6,7 @@
 
 #include "odosplat/core/se3.hpp"
 #include "odosplat/odometry/frame.hpp"
+#include "odosplat/odometry/map_confirmation.hpp"
 #include "odosplat/odometry/tracking_reference.hpp"
 
 namespace odosplat {
@@ -18,6 +19,9 @@ struct ReferenceFrame {
   Brightness brightness;
   Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera
   std::shared_ptr<const TrackingReference> points;
+  std::shared_ptr<const ViewPatches> patches;  // of the map, seen from there; null: the map has no colours
+  bool in_map = false;                         // its depth is the map's
+  MisfitEffect misfit;                         // of the camera on its pose
 };
 
 }  // namespace odosplat

@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
   accuracy::add_long_path(app, common);
   accuracy::add_leave_map(app, common);
   accuracy::add_kidnap(app, common);
+  accuracy::add_confirm(app, common);
+  accuracy::add_deceive(app, common);
   accuracy::add_disturb(app, common);
   return apps::run_program(app, argc, argv);
 }

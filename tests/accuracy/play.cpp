@@ -33,10 +33,10 @@ Script in_order(const World& world, std::size_t begin, std::size_t end,
 }
 
 Run play(const World& world, MapView& map, SensorView* sensor, const apps::TrackJob& job, const Script& script,
-         const SE3& T_world_camera_start, const std::string& label) {
+         const SE3& T_world_camera_start, const std::string& label, const Camera& told) {
   Run run;
   run.frames.resize(script.size());  // before the odometry: its memory is looked at
-  const Localiser localiser = make_localiser(world, map, sensor != nullptr, job, T_world_camera_start);
+  const Localiser localiser = make_localiser(told, map, sensor != nullptr, job, T_world_camera_start);
   Odometry& odometry = *localiser.odometry;
   Progress progress(label, static_cast<long>(script.size()));
   double cpu = 0.0;
@@ -71,7 +71,13 @@ Run play(const World& world, MapView& map, SensorView* sensor, const apps::Track
 
 Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job, const Script& script,
          const std::string& label) {
-  return play(world, *opened.view, opened.sensor, job, script, world.T_world_camera(script.at(0).frame), label);
+  return play(world, *opened.view, opened.sensor, job, script, world.T_world_camera(script.at(0).frame), label,
+              world.camera());
+}
+
+Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job, const Script& script,
+         const std::string& label, const SE3& T_world_camera_start, const std::function<Camera(Camera)>& told) {
+  return play(world, *opened.view, opened.sensor, job, script, T_world_camera_start, label, told(world.camera()));
 }
 
 }  // namespace odosplat::accuracy

@@ -45,9 +45,13 @@ struct Run {
 };
 
 /// Plays a script to a new odometry. rgbd: the sensor that shows each frame's depth, null for other methods.
-/// label: for progress lines. Interrupted after Ctrl-C.
+/// label: for progress lines. told: the camera that the odometry is told of. Interrupted after Ctrl-C.
 Run play(const World& world, MapView& map, SensorView* sensor, const apps::TrackJob& job, const Script& script,
-         const SE3& T_world_camera_start, const std::string& label);
+         const SE3& T_world_camera_start, const std::string& label, const Camera& told);
+
+/// The same in the world's map, with the camera that the odometry is told of made from the world's.
+Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job, const Script& script,
+         const std::string& label, const SE3& T_world_camera_start, const std::function<Camera(Camera)>& told);
 
 /// The same in the world's map, from the true pose of the first step.
 Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job, const Script& script,

@@ -143,7 +143,8 @@ void run_starts(const World& world, apps::OpenedView& opened, const DisturbFlags
   for (int n = 1; n <= flags.starts; ++n) {
     const SE3 start = wrong_start(world.T_world_camera(0), flags, flags.job.track.seed + static_cast<std::uint64_t>(n));
     const std::string name = "start " + std::to_string(n);
-    const Run run = play(world, *opened.view, opened.sensor, flags.job.track, in_order(world, 0, end), start, name);
+    const Run run =
+        play(world, *opened.view, opened.sensor, flags.job.track, in_order(world, 0, end), start, name, world.camera());
     out.trace(world, name, run);
     out.add(compared(world, name, judge(run, start_frames, end), judge(plain, start_frames, end)));
   }

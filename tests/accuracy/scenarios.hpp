@@ -15,6 +15,8 @@ void add_plain(CLI::App& app, apps::Common& common);
 void add_long_path(CLI::App& app, apps::Common& common);
 void add_leave_map(CLI::App& app, apps::Common& common);
 void add_kidnap(CLI::App& app, apps::Common& common);
+void add_confirm(CLI::App& app, apps::Common& common);
+void add_deceive(CLI::App& app, apps::Common& common);
 void add_disturb(CLI::App& app, apps::Common& common);
 
 }  // namespace odosplat::accuracy

@@ -36,11 +36,11 @@ World::World(const Job& job) : sequence_(apps::open_sequence(job.track.sequence)
   }
 }
 
-Localiser make_localiser(const World& world, MapView& map, bool sensor, const apps::TrackJob& job,
+Localiser make_localiser(const Camera& camera, MapView& map, bool sensor, const apps::TrackJob& job,
                          const SE3& T_world_camera_start) {
   Localiser made;
-  made.odometry = std::make_unique<Odometry>(world.camera(), map, apps::odometry_options(job), T_world_camera_start);
-  made.relocalizer = apps::make_relocalizer(job, world.camera(), map, sensor);
+  made.odometry = std::make_unique<Odometry>(camera, map, apps::odometry_options(job), T_world_camera_start);
+  made.relocalizer = apps::make_relocalizer(job, camera, map, sensor);
   made.odometry->set_relocalizer(made.relocalizer.get());
   return made;
 }

@@ -61,7 +61,7 @@ struct Localiser {
 };
 
 /// The one place that makes it. map must outlive it; sensor: map shows the depth images of a sensor.
-Localiser make_localiser(const World& world, MapView& map, bool sensor, const apps::TrackJob& job,
+Localiser make_localiser(const Camera& camera, MapView& map, bool sensor, const apps::TrackJob& job,
                          const SE3& T_world_camera_start);
 
 }  // namespace odosplat::accuracy

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -210,12 +211,23 @@ TEST_F(OdometryTest, ARoughStartIsMendedAtOnce) {
   }
 }
 
-TEST_F(OdometryTest, AMapInOtherColoursDoesNoHarm) {
+TEST_F(OdometryTest, AMapInOtherColoursConfirmsNothing) {
   test::BoxRoom inverted;  // not reachable by gain and offset alone
   inverted.gamma = -0.7;
-  const Played run = play(inverted, 60);
+  const Played refused = play(inverted, 20);
+  EXPECT_EQ(refused.statistics.posed, 0);
+  EXPECT_EQ(refused.statistics.refused, 20);
+  for (const TrackResult& result : refused.live) EXPECT_EQ(result.evidence.verdict, Confirmation::contradicted);
+  // Who does not ask the map gets the geometry.
+  OdometryOptions unasked;
+  unasked.confirmation.enabled = false;
+  const Played run = play(inverted, 60, unasked);
   EXPECT_EQ(run.statistics.posed, 60);
+  EXPECT_EQ(run.statistics.confirmed, 0);
   EXPECT_LT(ate(run), 0.004);
+}
+
+TEST_F(OdometryTest, AMapInDarkerColoursDoesNoHarm) {
   test::BoxRoom darker;
   darker.gamma = 1.6;
   EXPECT_LT(ate(play(darker, 60)), 0.004);
@@ -326,6 +338,71 @@ TEST_F(OdometryTest, AnotherRoomIsNotFoundInTheMap) {
     const TrackResult result = odometry.track((elsewhere ? other : world_).gray(camera_, test::room_path(k)), k / 30.0);
     EXPECT_EQ(result.status == TrackStatus::lost, elsewhere) << k;
   }
+}
+
+TEST_F(OdometryTest, EveryPoseOnTheWayIsConfirmed) {
+  test::BoxRoom map;
+  const Played run = play(map, 40);
+  EXPECT_EQ(run.statistics.confirmed, 40);
+  EXPECT_EQ(run.statistics.refused, 0);
+  EXPECT_EQ(run.statistics.likely_cause, "");
+  for (const TrackResult& result : run.live) {
+    EXPECT_EQ(result.evidence.verdict, Confirmation::confirmed);
+    EXPECT_TRUE(result.in_map);
+  }
+}
+
+TEST_F(OdometryTest, ImagesOfAnotherRoomAreRefusedFromAGivenStart) {
+  test::BoxRoom other;
+  other.detail = 1.7;
+  test::BoxRoom map;
+  for (const bool with_relocalizer : {false, true}) {
+    Relocalizer relocalizer(camera_, map, path_places());
+    Odometry odometry(camera_, map, {}, test::room_path(0));
+    if (with_relocalizer) odometry.set_relocalizer(&relocalizer);
+    for (int k = 0; k < 10; ++k) {
+      const TrackResult result = odometry.track(other.gray(camera_, test::room_path(k)), k / 30.0);
+      EXPECT_EQ(result.status, TrackStatus::lost) << k;
+    }
+    // The right room is found again: by its keyframe at the start pose, or by a look-up.
+    const TrackResult back = odometry.track(world_.gray(camera_, test::room_path(10)), 10 / 30.0);
+    EXPECT_EQ(back.status == TrackStatus::relocalised, with_relocalizer);
+  }
+}
+
+TEST_F(OdometryTest, AStartFarOutsideTheMapIsLookedUp) {
+  struct SeenFromInside : test::BoxRoom {
+    ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override {
+      with_depth = T_world_camera.translation().norm() < 10.0;
+      return BoxRoom::render(camera, T_world_camera, request);
+    }
+  } map;
+  Relocalizer relocalizer(camera_, map, path_places());
+  Odometry odometry(camera_, map, {}, SE3(Eigen::Quaterniond::Identity(), {200.0, 0.0, 0.0}));
+  odometry.set_relocalizer(&relocalizer);
+  const TrackResult result = odometry.track(world_.gray(camera_, test::room_path(0)), 0.0);
+  EXPECT_EQ(result.status, TrackStatus::relocalised);
+  EXPECT_LT((test::room_path(0).inverse() * result.T_world_camera).translation().norm(), 0.005);
+}
+
+TEST_F(OdometryTest, AWrongCameraIsNoticed) {
+  test::BoxRoom map;
+  Camera told = camera_;
+  told.fx *= 1.08;
+  told.fy *= 1.08;
+  Odometry odometry(told, map, {}, test::room_path(0));
+  int named = 0;
+  for (int k = 0; k < 90; ++k) {
+    const SE3 truth = test::room_path(k);
+    const TrackResult result = odometry.track(world_.gray(camera_, truth), k / 30.0);
+    if (!odometry.statistics().likely_cause.empty()) ++named;
+    if (result.status == TrackStatus::lost || named == 0) continue;
+    // Before a single wall focal length and distance are one. Once it is known, what remains lies in the covariance.
+    const Vector6d error = (truth * result.T_world_camera.inverse()).log();
+    EXPECT_LT(error.dot(result.covariance.ldlt().solve(error)), 22.5) << k;  // one in a thousand is above
+  }
+  EXPECT_GT(named, 30);
+  EXPECT_THAT(odometry.statistics().likely_cause, testing::HasSubstr("focal length"));
 }
 
 TEST_F(OdometryTest, AnEmptyMapLosesEveryFrameQuietly) {
