@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "config_file.hpp"
@@ -124,6 +125,39 @@ void name_values(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) name_values(*command);
 }
 
+bool is_output(const std::string& flag) { return flag == "--out" || flag == "--json" || flag == "--report"; }
+
+/// No file is written over one that the same command reads or writes: what a run needs would be gone after it, whatever
+/// comes of it.
+void check_outputs(const CLI::App& command) {
+  namespace fs = std::filesystem;
+  std::vector<const CLI::Option*> given;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() > 0 && option->get_expected_max() > 0) given.push_back(option);
+  }
+  const auto same = [](const std::string& a, const std::string& b) {
+    std::error_code error;
+    if (fs::is_regular_file(a, error) && fs::is_regular_file(b, error)) return fs::equivalent(a, b, error);
+    return !fs::is_directory(a, error) && !fs::is_directory(b, error) &&
+           fs::absolute(a, error).lexically_normal() == fs::absolute(b, error).lexically_normal();
+  };
+  for (const CLI::Option* output : given) {
+    if (!is_output(output->get_name())) continue;
+    for (const CLI::Option* other : given) {
+      if (other == output || (is_output(other->get_name()) && other < output)) continue;
+      for (const std::string& value : other->results()) {
+        if (value.empty() || output->results().front().empty()) continue;
+        std::error_code error;
+        if (!is_output(other->get_name()) && !fs::exists(value, error)) continue;
+        if (same(value, output->results().front())) {
+          throw InputError(output->get_name(), output->results().front() + " is the same file as " + other->get_name() +
+                                                   "; one would be written over the other");
+        }
+      }
+    }
+  }
+}
+
 /// --device names one that is there, also where the command does not need any: a wish that cannot be met is an error.
 void check_device(const Common& common) {
   if (!common.device.empty()) compute::choose_device(compute::list_devices(), common.device);
@@ -153,7 +187,8 @@ CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, co
                    "TOML file of flags, a line each: flag = value; flags on the command line win")
       ->type_name("FILE")
       ->group(common_group);
-  command->parse_complete_callback([&common] {
+  command->parse_complete_callback([&common, command] {
+    check_outputs(*command);
     set_log_level(common.log);
     if (common.threads > 0) {
       set_threads(common.threads);

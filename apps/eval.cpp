@@ -26,7 +26,11 @@ struct EvalFlags {
   EvalOptions options;
 };
 
+/// Null where there was nothing to measure.
 nlohmann::ordered_json json_of(const Statistics& s) {
+  if (s.count == 0) {
+    return {{"rmse", nullptr}, {"mean", nullptr}, {"median", nullptr}, {"max", nullptr}, {"p99", nullptr}};
+  }
   return {{"rmse", s.rmse}, {"mean", s.mean}, {"median", s.median}, {"max", s.max}, {"p99", s.p99}};
 }
 
@@ -50,9 +54,16 @@ EvalResult evaluate_or_say_why(const JudgedTrajectory& judged, const EvalOptions
   }
 }
 
+/// No errors are no errors of zero: "-".
 void print_row(const char* name, const Statistics& s, double unit, const char* format) {
   print("%-10s", name);
-  for (const double value : {s.rmse, s.mean, s.median, s.max, s.p99}) print(format, value * unit);
+  for (const double value : {s.rmse, s.mean, s.median, s.max, s.p99}) {
+    if (s.count > 0) {
+      print(format, value * unit);
+    } else {
+      print("%12s", "-");
+    }
+  }
   print("\n");
 }
 
@@ -62,9 +73,9 @@ void run(EvalFlags& flags) {
   const JudgedTrajectory judged = read_judged(flags.estimate, flags.estimate_times, flags.truth);
   const EvalResult result = evaluate_or_say_why(judged, flags.options);
   print("%-10s%12s%12s%12s%12s%12s\n", "", "RMSE", "mean", "median", "max", "99 %");
-  print_row("ATE [mm]", result.ate_m, 1000.0, "%12.3f");
-  print_row("RTE [mm]", result.rte_m, 1000.0, "%12.3f");
-  print_row("RRE [deg]", result.rre_deg, 1.0, "%12.4f");
+  print_row("ATE [mm]", result.ate_m, 1000.0, " %11.3f");
+  print_row("RTE [mm]", result.rte_m, 1000.0, " %11.3f");
+  print_row("RRE [deg]", result.rre_deg, 1.0, " %11.4f");
   print("%zu pairs, coverage %.1f %% (of the estimate %.1f %%, of the truth %.1f %%), alignment %s", result.pairs,
         100.0 * result.coverage, 100.0 * result.coverage_estimate, 100.0 * result.coverage_truth,
         flags.alignment.c_str());

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "json_text.hpp"
+#include "no_result.hpp"
 #include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/progress.hpp"
@@ -118,6 +119,11 @@ void add_eval_depth(CLI::App& app, Common& common) {
   command->final_callback([&common, job] {
     if (!job->json.empty()) ensure_output_file(job->json);
     const EvalDepthOutcome o = evaluate_depth(common, *job);
+    if (!(o.all.valid_share > 0.0) || !std::isfinite(o.all.rmse_m)) {
+      throw NoResult("no pixel of " + std::to_string(o.frames) +
+                     " frames has a depth of the map to be compared with the sequence's: the map is elsewhere or shows "
+                     "nothing, or the camera file is wrong");
+    }
     print("%-10s%12s%12s%12s%12s%12s", "[mm]", "median", "RMSE", "90 %", "mean", "valid");
     if (o.all.with_sigma > 0) print("%11s%11s%11s", "1 sigma", "2 sigma", "3 sigma");
     print("\n");

@@ -12,6 +12,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/quiet_opencv.hpp"
+#include "odosplat/io/video_reader.hpp"
 
 namespace odosplat {
 namespace {
@@ -37,6 +38,7 @@ struct VideoWriter::State {
   AtomicFile file;
   cv::Size size;
   cv::VideoWriter writer;
+  std::size_t written = 0;  // frames
 };
 
 void check_video_name(const std::string& path) {
@@ -77,14 +79,24 @@ void VideoWriter::write(const cv::Mat3b& rgb) {
   cv::Mat3b bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   state_->writer.write(bgr);
+  ++state_->written;
 }
 
 void VideoWriter::commit() {
   State& s = *state_;
   s.writer.release();
-  std::error_code error;
-  if (fs::file_size(s.file.temporary_name(), error) == 0 || error) {
-    throw InputError(s.path, "cannot be written: no frame got there");
+  // OpenCV tells nothing of what could not be written: the file is read as others will read it.
+  std::size_t there = 0;
+  try {
+    const VideoReader reader(s.file.temporary_name());
+    there = reader.size();
+    if (there == s.written && there > 0) reader.frame(there - 1);
+  } catch (const InputError&) {
+    there = 0;
+  }
+  if (there == 0 || there != s.written) {
+    throw InputError(s.path, "cannot be written: " + std::to_string(there) + " of " + std::to_string(s.written) +
+                                 " frames got there; is the disk full?");
   }
   s.file.commit();
 }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
 #include <sstream>
 #include <string>
@@ -314,6 +315,24 @@ TEST(NearestName, IsWhatWasMeant) {
   EXPECT_EQ(apps::nearest_name("fly", names), "");
   EXPECT_EQ(apps::nearest_name("", names), "");
   EXPECT_EQ(apps::nearest_name(std::string(100000, 'x'), names), "");
+}
+
+TEST(Outputs, AreNotWrittenOverWhatTheSameRunReadsOrWrites) {
+  const std::string folder = testing::TempDir() + "/odosplat_outputs";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const std::string a = folder + "/a.ply";
+  const std::string link = folder + "/link.ply";
+  write_text(a, "ply\n");
+  std::filesystem::create_hard_link(a, link);
+  EXPECT_THAT(fault_of({"map", "info", a, "--json", a}), HasSubstr("is the same file as"));
+  EXPECT_THAT(fault_of({"train", "seq", "--cloud", a, "--out", link}), HasSubstr("is the same file as --cloud"));
+  EXPECT_THAT(fault_of({"eval", a, "--truth", "seq", "--json", folder + "/./a.ply"}), HasSubstr("is the same file as"));
+  EXPECT_THAT(fault_of({"train", "seq", "--cloud", "c.ply", "--out", "new.ply", "--report", "./new.ply"}),
+              HasSubstr("is the same file as"));
+  EXPECT_EQ(fault_of({"train", "seq", "--cloud", a, "--out", folder + "/new.ply", "--report", folder + "/r.json"}), "");
+  EXPECT_EQ(fault_of({"render", "--map", a, "--poses", a, "--camera", a, "--out", folder}), "");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Misspelt, CommandsAndFlagsAreNamedWithTheNearest) {

@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <filesystem>
+#include <opencv2/core.hpp>
 
 #include "io/temp_folder.hpp"
 #include "odosplat/core/error.hpp"
@@ -41,6 +45,28 @@ TEST(VideoWriter, WritesWhatTheReaderReads) {
     }
   }
   EXPECT_EQ(files_in(temp / "new"), 2U);
+}
+
+TEST(VideoWriter, AFilmThatIsCutOffIsAnError) {
+  const TempFolder temp;
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  for (const char* name : {"clip.avi", "clip.mp4"}) {
+    rlimit small = limit;
+    small.rlim_cur = 20'000;
+    VideoWriter writer(temp / name, {160, 120}, 12.0);
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    cv::Mat3b noise(120, 160);
+    for (int k = 0; k < 60; ++k) {
+      cv::randu(noise, 0, 255);
+      writer.write(noise);
+    }
+    EXPECT_THAT(error_of([&] { writer.commit(); }), HasSubstr("of 60 frames got there")) << name;
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    EXPECT_FALSE(std::filesystem::exists(temp / name)) << name;
+  }
+  std::signal(SIGXFSZ, before);
 }
 
 TEST(VideoWriter, LeavesNothingWithoutCommit) {
