@@ -37,8 +37,8 @@ const MethodPreset& method_preset(const std::string& name) {
 OdometryOptions odometry_options(const MethodPreset& preset, std::optional<bool> anchor) {
   OdometryOptions options;
   options.keyframe.anchor.enabled = anchor.value_or(preset.anchor);
-  // The map's word counts where its colours do: the methods that we compare with are left as they are published.
-  options.confirmation.enabled = options.keyframe.anchor.enabled;
+  // The methods that we compare with are taken as they are, anchored or not.
+  options.confirmation.enabled = preset.anchor;
   options.keyframe.window_points.depth_use = preset.depth_use;
   // Without an anchor, what a keyframe leaves behind holds the window to its own drift wherever depth moves with its
   // keyframe (icl_office_kt3, ATE in mm, with / without: fixed depth of a sensor 43 / 14, of the paper's map 2074 /
