@@ -144,7 +144,7 @@ void check_outputs(const CLI::App& command) {
   for (const CLI::Option* output : given) {
     if (!is_output(output->get_name())) continue;
     for (const CLI::Option* other : given) {
-      if (other == output || (is_output(other->get_name()) && other < output)) continue;
+      if (other == output) continue;
       for (const std::string& value : other->results()) {
         if (value.empty() || output->results().front().empty()) continue;
         std::error_code error;

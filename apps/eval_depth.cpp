@@ -45,8 +45,13 @@ std::vector<std::size_t> judged_frames(const Sequence& sequence, const EvalDepth
 }
 
 void print_row(const char* region, const DepthErrors& e) {
-  print("%-10s%12.2f%12.2f%12.2f%12.2f%11.2f%%", region, 1000.0 * e.median_abs_m, 1000.0 * e.rmse_m, 1000.0 * e.p90_m,
-        1000.0 * e.mean_m, 100.0 * e.valid_share);
+  if (e.valid_share > 0.0) {
+    print("%-10s%12.2f%12.2f%12.2f%12.2f", region, 1000.0 * e.median_abs_m, 1000.0 * e.rmse_m, 1000.0 * e.p90_m,
+          1000.0 * e.mean_m);
+  } else {
+    print("%-10s%12s%12s%12s%12s", region, "-", "-", "-", "-");
+  }
+  print("%11.2f%%", 100.0 * e.valid_share);
   if (e.with_sigma > 0)
     print("%10.1f%%%10.1f%%%10.1f%%", 100.0 * e.within_sigmas[0], 100.0 * e.within_sigmas[1],
           100.0 * e.within_sigmas[2]);

@@ -11,7 +11,9 @@
 namespace odosplat {
 namespace {
 
-using Matrix46 = Eigen::Matrix<double, 4, 6>;
+constexpr int least_patches = 20;  // squares that agree somewhat, below which an image says nothing of its camera
+constexpr double settled = 1e-4;   // [m, rad, and of the focal length] a step that moves nothing by a visible part of
+                                   // a pixel
 
 struct Reduced {
   Eigen::Matrix4d information;
@@ -51,35 +53,36 @@ MisfitEffect CameraMisfit::add(const ViewPatches& patches, const FramePyramid& i
   // From what the keyframes before have said of the camera, with the pose that belongs to it.
   Eigen::Vector4d camera = correction().vector();
   SE3 T_camera_world = T_world_camera.inverse();
-  const Eigen::Matrix4d doubt = information_;
   MisfitSystem system;
+  const auto look = [&](int coarse) {
+    system = patches.misfit(image, T_camera_world, CameraCorrection::from(camera), coarse, options_.min_patch);
+    return system.patches >= least_patches;
+  };
   for (int coarse = 1; coarse >= 0; --coarse) {
     for (int k = 0; k < options_.iterations; ++k) {
-      system = patches.misfit(image, T_camera_world, CameraCorrection::from(camera), coarse, options_.min_patch);
-      if (system.patches < 20) return {};
+      if (!look(coarse)) return {};
       Eigen::Matrix<double, 10, 10> information = system.information;
       Eigen::Matrix<double, 10, 1> vector = system.vector;
       const double scale = system.noise * options_.covariance_factor;
       information.topLeftCorner<6, 6>().diagonal().array() += 1e-9 * information.topLeftCorner<6, 6>().trace();
-      information.bottomRightCorner<4, 4>() += scale * doubt;
-      vector.tail<4>() += scale * (vector_ - doubt * camera);
+      information.bottomRightCorner<4, 4>() += scale * information_;
+      vector.tail<4>() += scale * (vector_ - information_ * camera);
       const Eigen::Matrix<double, 10, 1> step = information.ldlt().solve(vector);
       if (!step.allFinite()) return {};
       camera += step.tail<4>();
       T_camera_world = SE3::exp(step.head<6>()) * T_camera_world;
+      if (step.norm() < settled) break;
     }
   }
-  system = patches.misfit(image, T_camera_world, CameraCorrection::from(camera), 0, options_.min_patch);
-  if (system.patches < 20) return {};
+  if (!look(0)) return {};
   const double scale = 1.0 / (system.noise * options_.covariance_factor);
   const Reduced reduced = eliminate_pose(system);
   information_ += scale * reduced.information;
   vector_ += scale * (reduced.vector + reduced.information * camera);
   const Eigen::Vector4d found = correction().vector();
   MisfitEffect effect;
-  effect.significant = !likely_cause(image.cameras.front()).empty();
   // A camera is taken to be right until its images say otherwise: before a flat wall they say nothing.
-  if (!effect.significant) return effect;
+  if (likely_cause(image.cameras.front()).empty()) return effect;
   const Vector6d twist = reduced.pose_by_camera * found;
   effect.meters = twist.head<3>().norm();
   effect.radians = twist.tail<3>().norm();

@@ -274,9 +274,9 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
     outcome.evidence = patches->compare(*image.even, keyframe->T_world_camera);
     if (outcome.evidence.verdict == Confirmation::confirmed) {
       outcome.misfit = misfit_.add(*patches, *image.even, keyframe->T_world_camera);
-      outcome.likely_cause = misfit_.likely_cause(camera_);
       keyframe->misfit = outcome.misfit;
     }
+    outcome.likely_cause = misfit_.likely_cause(camera_);
   }
   outcome.window = references();
   return outcome;

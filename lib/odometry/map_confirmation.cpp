@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "odosplat/core/error.hpp"
-#include "odosplat/odometry/camera_misfit.hpp"
 #include "odosplat/odometry/tracking_reference.hpp"
 
 namespace odosplat {
@@ -178,9 +177,8 @@ MapEvidence ViewPatches::compare(const Level& level, const FramePyramid& image, 
 MisfitSystem ViewPatches::misfit(const FramePyramid& image, const SE3& T_camera_world,
                                  const CameraCorrection& correction, int coarse, double min_patch) const {
   MisfitSystem system;
-  const auto index = std::min(static_cast<std::size_t>(coarse), levels_.size() - 1);
   if (levels_.empty()) return system;
-  const Level& level = levels_[index];
+  const Level& level = levels_[std::min(static_cast<std::size_t>(coarse), levels_.size() - 1)];
   const GrayImage& gray = image.gray[static_cast<std::size_t>(level.number)];
   const Camera& camera = image.cameras[static_cast<std::size_t>(level.number)];
   const SE3 T_camera_view = T_camera_world * T_world_view_;

@@ -5,13 +5,11 @@
 #include <array>
 #include <vector>
 
+#include "odosplat/odometry/camera_correction.hpp"
 #include "odosplat/odometry/frame.hpp"
 #include "odosplat/odometry/rendered_view.hpp"
 
 namespace odosplat {
-
-struct CameraCorrection;
-struct MisfitSystem;
 
 /// Side of a square of a view that is looked for in an image [px of its pyramid level].
 inline constexpr int patch_side = 8;
@@ -53,14 +51,6 @@ struct MapEvidence {
   double score = 0.0;        // -1..1, their mean correlation
   double probability = 0.0;  // that the map is seen from there; 0 where nothing can be said
   Confirmation verdict = Confirmation::none;
-};
-
-/// How far an image's pose would move if its camera could be mended (CameraMisfit). Zero where nothing is significant.
-struct MisfitEffect {
-  bool significant = false;                // what is wrong stands out of its own doubt (CameraMisfit::likely_cause)
-  double meters = 0.0;                     // of the camera's place
-  double radians = 0.0;                    // of its direction
-  Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera: the move itself, and its doubt
 };
 
 /// A rendered view of the map cut into squares, each with its place in space, to be compared with images from nearby.

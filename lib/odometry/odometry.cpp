@@ -102,10 +102,7 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
     request.T_world_camera = *T_world_camera_start_;
     make_keyframe(request, result);
     if (result.keyframe && !stands(keyframe_evidence_, keyframe_misfit_, true)) {
-      result = {};
-      result.evidence = keyframe_evidence_;
-      ++counts_.refused;
-      relocalise(image, request, result);
+      refuse(image, request, result, keyframe_evidence_);
     } else if (result.keyframe) {
       result.status = TrackStatus::ok;
       result.inlier_share = 1.0;
@@ -116,23 +113,13 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
     }
   }
   result.map_share = map_share_;
-  if (result.status != TrackStatus::lost) {
-    const bool confirmed = result.evidence.verdict == Confirmation::confirmed;
-    unconfirmed_ = confirmed ? 0 : unconfirmed_ + 1;
-    if (confirmed) {
-      ++counts_.confirmed;
-      to_be_confirmed_ = false;
-    }
-    const bool verifiable = front_.newest().patches != nullptr;
-    const bool agrees_in_part = result.evidence.verdict == Confirmation::undecided;
-    result.in_map = in_map_ && (!verifiable || (!agrees_in_part && unconfirmed_ <= options_.max_unconfirmed));
-    if (in_map_ && !result.in_map) result.covariance += drift(result.T_world_camera);
-  }
   if (result.status == TrackStatus::lost) {
     result.T_world_camera = SE3();
+    record_.withdraw(time);
     front_.lose();
     ++counts_.lost;
   } else {
+    judge(result);
     lost_in_a_row_ = 0;
     if (result.status == TrackStatus::relocalised) ++counts_.relocalisations;
     front_.confirm(time, result.T_world_camera);
@@ -159,8 +146,7 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
   result.evidence = frame.evidence;
   if (frame.verifiable &&
       !stands(frame.evidence, frame.misfit, frame.was_lost || frame.after_gap || to_be_confirmed_)) {
-    ++counts_.refused;
-    relocalise(image, request, result);
+    refuse(image, request, result, frame.evidence);
     return;
   }
   if (frame.doubtful && relocalise(image, request, result, frame.T_world_camera)) return;
@@ -184,10 +170,7 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
     if (!result.keyframe) return;
     if (keyframe_evidence_.verdict == Confirmation::confirmed) result.evidence = keyframe_evidence_;
     if (to_be_confirmed_ && result.evidence.verdict != Confirmation::confirmed) {
-      result = {};
-      result.evidence = keyframe_evidence_;
-      ++counts_.refused;
-      relocalise(image, request, result);
+      refuse(image, request, result, keyframe_evidence_);
     }
   } else if (thread_ != nullptr && request.view == nullptr) {
     render_ahead(frame, request.time);
@@ -196,16 +179,35 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
 
 bool Odometry::stands(const MapEvidence& evidence, const MisfitEffect& misfit, bool to_be_confirmed) const {
   if (front_.empty() || front_.newest().patches == nullptr) return true;
-  if (misfit.significant &&
-      (misfit.meters > options_.max_misfit_translation || misfit.radians > options_.max_misfit_rotation)) {
-    return false;
-  }
+  if (misfit.meters > options_.max_misfit_translation || misfit.radians > options_.max_misfit_rotation) return false;
   if (evidence.verdict == Confirmation::confirmed) return true;
   return !to_be_confirmed && evidence.verdict != Confirmation::contradicted;
 }
 
-Matrix6d Odometry::drift(const SE3& T_world_camera) const {
-  return unconfirmed_ * drift_covariance(options_.drift, T_world_camera);
+void Odometry::refuse(const GrayImage& image, const KeyframeRequest& request, TrackResult& result,
+                      const MapEvidence& evidence) {
+  TrackResult refused;
+  refused.inlier_share = result.inlier_share;
+  refused.coverage = result.coverage;
+  refused.rmse = result.rmse;
+  refused.correlation = result.correlation;
+  refused.evidence = evidence;
+  result = refused;
+  ++counts_.refused;
+  relocalise(image, request, result);
+}
+
+void Odometry::judge(TrackResult& result) {
+  const bool confirmed = result.evidence.verdict == Confirmation::confirmed;
+  unconfirmed_ = confirmed ? 0 : unconfirmed_ + 1;
+  if (confirmed) {
+    ++counts_.confirmed;
+    to_be_confirmed_ = false;
+  }
+  if (!in_map_) return;
+  const bool silent = result.evidence.verdict == Confirmation::none && unconfirmed_ <= options_.max_unconfirmed;
+  result.in_map = confirmed || silent || front_.newest().patches == nullptr;
+  if (!result.in_map) result.covariance += unconfirmed_ * drift_covariance(options_.drift, result.T_world_camera);
 }
 
 bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request, TrackResult& result,
@@ -291,8 +293,6 @@ void Odometry::take_over(const KeyframeRequest& request, const KeyframeOutcome& 
   rendered_ahead_ = false;
   if (!outcome.made) return;
   in_map_ = outcome.in_map;
-  to_be_confirmed_ =
-      in_map_ && outcome.evidence.verdict != Confirmation::none && !stands(outcome.evidence, outcome.misfit, false);
   const ReferenceFrame& keyframe = outcome.window.back();
   record_.add_keyframe(request.time, keyframe.T_world_camera, request.fresh);
   for (const ReferenceFrame& k : outcome.window) record_.move_keyframe(k.id, k.T_world_camera);
@@ -300,6 +300,8 @@ void Odometry::take_over(const KeyframeRequest& request, const KeyframeOutcome& 
   if (outcome.anchored) ++counts_.anchored;
   if (outcome.prefetched) ++counts_.prefetched;
   front_.set_references(outcome.window, keyframe.T_world_camera * request.T_world_camera.inverse());
+  to_be_confirmed_ =
+      in_map_ && outcome.evidence.verdict != Confirmation::none && !stands(outcome.evidence, outcome.misfit, false);
 }
 
 void Odometry::render_ahead(const TrackedFrame& frame, double time) {

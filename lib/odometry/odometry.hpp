@@ -149,8 +149,11 @@ class Odometry {
   /// Whether a pose may stand, by what the map says about it. to_be_confirmed: it does not follow from a pose that the
   /// map has confirmed.
   bool stands(const MapEvidence& evidence, const MisfitEffect& misfit, bool to_be_confirmed) const;
-  /// What is added to the covariance of a pose that the map has long not confirmed: as for keyframes outside of it.
-  Matrix6d drift(const SE3& T_world_camera) const;
+  /// Takes a tracked pose back, for what the map says about it, and looks the image up.
+  void refuse(const GrayImage& image, const KeyframeRequest& request, TrackResult& result, const MapEvidence& evidence);
+  /// Whether a posed frame counts as in the map. Where it does not although its keyframe's depth is the map's, its
+  /// covariance grows as that of keyframes outside does.
+  void judge(TrackResult& result);
   void make_keyframe(const KeyframeRequest& request, TrackResult& result);
   void take_over(const KeyframeRequest& request, const KeyframeOutcome& outcome);
   void take_over_finished(const std::optional<FinishedKeyframe>& finished);

@@ -10,13 +10,17 @@ void TrajectoryRecord::add_frame(double time, int keyframe, const SE3& T_keyfram
   frames_.push_back({time, keyframe, T_keyframe_camera, found_again});
 }
 
+std::vector<TrajectoryRecord::Frame>::iterator TrajectoryRecord::frame_at(double time) {
+  return std::lower_bound(frames_.begin(), frames_.end(), time,
+                          [](const Frame& frame, double stamp) { return frame.time < stamp; });
+}
+
 int TrajectoryRecord::add_keyframe(double time, const SE3& T_world_camera, bool found_again) {
   const int id = static_cast<int>(keyframes_.size());
   Keyframe keyframe{time, T_world_camera, -1, {}};
   // The frame's own record moves over to its keyframe: its pose is the keyframe's from now on. It is the newest, or a
   // few frames back where the back end took its time.
-  const auto at = std::lower_bound(frames_.begin(), frames_.end(), time,
-                                   [](const Frame& frame, double stamp) { return frame.time < stamp; });
+  const auto at = frame_at(time);
   if (at != frames_.end() && at->time == time) {
     const int previous = at->keyframe;
     const SE3 T_keyframe_previous = at->T_keyframe_camera.inverse();
@@ -40,6 +44,11 @@ int TrajectoryRecord::add_keyframe(double time, const SE3& T_world_camera, bool 
   }
   keyframes_.push_back(keyframe);
   return id;
+}
+
+void TrajectoryRecord::withdraw(double time) {
+  const auto at = frame_at(time);
+  if (at != frames_.end() && at->time == time) frames_.erase(at);
 }
 
 void TrajectoryRecord::move_keyframe(int keyframe, const SE3& T_world_camera) {

@@ -23,6 +23,10 @@ class TrajectoryRecord {
   /// number.
   int add_keyframe(double time, const SE3& T_world_camera, bool found_again = false);
 
+  /// The frame of that time has no pose after all: it is left out of the trajectory. If it has become a keyframe,
+  /// frames may still belong to that. Nothing if there is no such frame.
+  void withdraw(double time);
+
   void move_keyframe(int keyframe, const SE3& T_world_camera);
 
   /// When the keyframe's image was taken [s].
@@ -47,6 +51,9 @@ class TrajectoryRecord {
     int previous = -1;      // keyframe it was tracked against without a loss since; -1: none
     SE3 T_previous_camera;  // where tracking had put it
   };
+
+  /// The first frame that is not before `time`.
+  std::vector<Frame>::iterator frame_at(double time);
 
   std::vector<Keyframe> keyframes_;
   std::vector<Frame> frames_;

@@ -81,6 +81,18 @@ GrayImage with_rolling_gain(const GrayImage& image, double amplitude, double pha
   });
 }
 
+GrayImage mirrored(const GrayImage& image, int code) {
+  GrayImage out;
+  cv::flip(image, out, code);
+  return out;
+}
+
+GrayImage with_right_half(const GrayImage& image, const GrayImage& other) {
+  GrayImage half = image.clone();
+  other.colRange(image.cols / 2, image.cols).copyTo(half.colRange(image.cols / 2, image.cols));
+  return half;
+}
+
 GrayImage uniform_image(const Camera& camera, double value) {
   return GrayImage(camera.height, camera.width, static_cast<float>(value));
 }

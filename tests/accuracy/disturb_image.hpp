@@ -37,6 +37,12 @@ Eigen::Vector2d center_motion(const Camera& camera, const SE3& T_world_from, con
 /// with a rolling shutter. phase in turns.
 GrayImage with_rolling_gain(const GrayImage& image, double amplitude, double phase);
 
+/// Mirrored about the upright (cv::flip's code 1) or the level axis (0).
+GrayImage mirrored(const GrayImage& image, int code);
+
+/// The image with its right half from another of the same size.
+GrayImage with_right_half(const GrayImage& image, const GrayImage& other);
+
 /// An image of one value.
 GrayImage uniform_image(const Camera& camera, double value);
 

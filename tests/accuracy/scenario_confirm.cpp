@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <opencv2/imgproc.hpp>
 
 #include "disturb_image.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/statistics.hpp"
 #include "odosplat/odometry/map_confirmation.hpp"
 #include "odosplat/odometry/motion_model.hpp"
+#include "odosplat/odometry/place_index.hpp"
 #include "odosplat/odometry/tracking_reference.hpp"
 #include "output.hpp"
 #include "scenarios.hpp"
@@ -82,12 +82,6 @@ class Place {
   Pairs& pairs_;
 };
 
-GrayImage flipped(const GrayImage& image, int code) {
-  GrayImage out;
-  cv::flip(image, out, code);
-  return out;
-}
-
 void compare_frame(const World& world, std::size_t i, Place& place, const std::vector<Sequence>& others) {
   const Camera camera = world.camera();
   const GrayImage own = world.gray(i);
@@ -102,19 +96,14 @@ void compare_frame(const World& world, std::size_t i, Place& place, const std::v
     const SE3 aside(Eigen::Quaterniond::Identity(), {d, 0.0, 0.0});
     place.compare(kind, d > RecoveryBars().wrong_m ? Truth::wrong : Truth::near, own, aside);
   }
-  place.align("mirrored", flipped(own, 1));
-  place.align("upside down", flipped(own, 0));
+  place.align("mirrored", mirrored(own, 1));
+  place.align("upside down", mirrored(own, 0));
   place.align("white noise", with_noise(uniform_image(camera, 0.5), 0.3, i));
   for (std::size_t o = 0; o < others.size(); ++o) {
     for (std::size_t k = 0; k < 4; ++k) {
-      GrayImage image;
-      cv::resize(others[o].gray((7 * i + 31 * k) % others[o].size()), image, cv::Size(camera.width, camera.height), 0.0,
-                 0.0, cv::INTER_AREA);
+      const GrayImage image = resized_gray(others[o].gray((7 * i + 31 * k) % others[o].size()), camera);
       place.align("foreign " + others[o].name(), image);
-      if (k > 0) continue;
-      GrayImage half = own.clone();
-      image.colRange(image.cols / 2, image.cols).copyTo(half.colRange(image.cols / 2, image.cols));
-      place.compare("half foreign", Truth::right, half);
+      if (k == 0) place.compare("half foreign", Truth::right, with_right_half(own, image));
     }
   }
 }

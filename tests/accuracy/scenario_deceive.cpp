@@ -6,11 +6,11 @@
 #include <limits>
 #include <memory>
 #include <numeric>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "disturb_image.hpp"
 #include "odosplat/core/random.hpp"
+#include "odosplat/odometry/place_index.hpp"
 #include "output.hpp"
 #include "scenarios.hpp"
 #include "support.hpp"
@@ -34,19 +34,9 @@ struct Deception {
   Eigen::Vector2d center = Eigen::Vector2d::Zero();  // [px] added to its principal point
 };
 
-GrayImage flipped(const GrayImage& image, int code) {
-  GrayImage out;
-  cv::flip(image, out, code);
-  return out;
-}
-
 /// Another sequence's images at this camera's size; they go round.
 std::function<GrayImage(std::size_t n)> images_of(const Sequence& other, const Camera& camera) {
-  return [other, camera](std::size_t n) {
-    GrayImage image;
-    cv::resize(other.gray(n % other.size()), image, cv::Size(camera.width, camera.height), 0.0, 0.0, cv::INTER_AREA);
-    return image;
-  };
+  return [other, camera](std::size_t n) { return resized_gray(other.gray(n % other.size()), camera); };
 }
 
 class Deceptions {
@@ -136,17 +126,12 @@ std::vector<Deception> deceptions(const World& world, const DeceiveFlags& flags)
     d.edited("still " + other.name(), true,
              [image](std::size_t) { return [image](const GrayImage&) { return image(7); }; });
     d.edited("half " + other.name(), false, [image](std::size_t i) {
-      return [image, i](const GrayImage& own) {
-        GrayImage half = own.clone();
-        const GrayImage foreign = image(i);
-        foreign.colRange(own.cols / 2, own.cols).copyTo(half.colRange(own.cols / 2, own.cols));
-        return half;
-      };
+      return [image, i](const GrayImage& own) { return with_right_half(own, image(i)); };
     });
     d.kidnapped("kidnapped to " + other.name(), image);
   }
   const auto flip = [](int code) {
-    return [code](std::size_t) { return [code](const GrayImage& own) { return flipped(own, code); }; };
+    return [code](std::size_t) { return [code](const GrayImage& own) { return mirrored(own, code); }; };
   };
   d.edited("mirrored", true, flip(1));
   d.edited("upside down", true, flip(0));

@@ -3,11 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "disturb_image.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/place_index.hpp"
 #include "output.hpp"
 #include "scenarios.hpp"
 #include "support.hpp"
@@ -67,11 +67,8 @@ std::vector<Kidnapping> kidnappings(const World& world, const KidnapFlags& flags
   if (!flags.other.empty()) {
     const Sequence other = Sequence::open(flags.other);
     const std::size_t frames = std::min(fitting(flags.foreign), other.size());
-    all.push_back(replaced(world, "of another place", frames, [camera, other](std::size_t n) {
-      GrayImage image;
-      cv::resize(other.gray(n), image, cv::Size(camera.width, camera.height), 0.0, 0.0, cv::INTER_AREA);
-      return image;
-    }));
+    all.push_back(replaced(world, "of another place", frames,
+                           [camera, other](std::size_t n) { return resized_gray(other.gray(n), camera); }));
   }
   return all;
 }

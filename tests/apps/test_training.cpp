@@ -296,6 +296,14 @@ TEST_F(Training, CloudWithoutColoursTakesThemFromTheImages) {
     ASSERT_EQ(judged.status, 0) << judged.err;
     EXPECT_GT(nlohmann::json::parse(read_text(map + ".json"))["psnr_db"], 17.0) << source;
   }
+  // A map that no frame sees has no errors, rather than errors of zero.
+  for (Eigen::Vector3f& point : cloud.points) point += Eigen::Vector3f(0.0F, 5000.0F, 0.0F);
+  const std::string far = scratch_ / "far.ply";
+  write_point_cloud(far, cloud);
+  const RunResult unseen = run_odosplat({"eval-depth", sequence_, "--method", "surfel", "--cloud", far});
+  EXPECT_EQ(unseen.status, 3);
+  EXPECT_THAT(unseen.err, HasSubstr("no pixel of"));
+  EXPECT_THAT(unseen.out, testing::Not(HasSubstr("0.00")));
 }
 
 TEST_F(Training, EveryChoiceTrains) {

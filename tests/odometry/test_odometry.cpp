@@ -217,6 +217,7 @@ TEST_F(OdometryTest, AMapInOtherColoursConfirmsNothing) {
   const Played refused = play(inverted, 20);
   EXPECT_EQ(refused.statistics.posed, 0);
   EXPECT_EQ(refused.statistics.refused, 20);
+  EXPECT_TRUE(refused.trajectory.empty());
   for (const TrackResult& result : refused.live) EXPECT_EQ(result.evidence.verdict, Confirmation::contradicted);
   // Who does not ask the map gets the geometry.
   OdometryOptions unasked;
@@ -367,6 +368,7 @@ TEST_F(OdometryTest, ImagesOfAnotherRoomAreRefusedFromAGivenStart) {
     // The right room is found again: by its keyframe at the start pose, or by a look-up.
     const TrackResult back = odometry.track(world_.gray(camera_, test::room_path(10)), 10 / 30.0);
     EXPECT_EQ(back.status == TrackStatus::relocalised, with_relocalizer);
+    EXPECT_EQ(odometry.trajectory().size(), with_relocalizer ? 1U : 0U);
   }
 }
 

@@ -66,5 +66,22 @@ TEST(TrajectoryRecord, ACorrectionIsNotSpreadOverALoss) {
   EXPECT_DOUBLE_EQ(trajectory[4].T_world_camera.translation().x(), 0.6);
 }
 
+TEST(TrajectoryRecord, WhatIsWithdrawnIsNotInTheTrajectory) {
+  TrajectoryRecord record;
+  record.add_keyframe(0.0, at(0.0));
+  for (const double time : {0.1, 0.2, 0.3}) record.add_frame(time, 0, at(time));
+  record.add_keyframe(0.3, at(0.3));
+  record.withdraw(0.1);
+  record.withdraw(0.3);
+  record.withdraw(0.7);
+  record.add_frame(0.4, 1, at(0.1));
+  const Trajectory trajectory = record.compose();
+  ASSERT_EQ(trajectory.size(), 3U);
+  EXPECT_EQ(trajectory[0].time, 0.0);
+  EXPECT_EQ(trajectory[1].time, 0.2);
+  EXPECT_EQ(trajectory[2].time, 0.4);
+  EXPECT_NEAR(trajectory[2].T_world_camera.translation().x(), 0.4, 1e-12);
+}
+
 }  // namespace
 }  // namespace odosplat
