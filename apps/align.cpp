@@ -64,7 +64,7 @@ void run(const AlignFlags& flags) {
   if (std::filesystem::equivalent(flags.out, flags.poses.path, missing)) {
     throw InputError(flags.out, "is the sequence's own folder; name another");
   }
-  ensure_output_folder(flags.out);
+  const MadeFolders made = ensure_output_folder(flags.out);
   const Similarity guess = first_guess(flags);
   const Sequence sequence = Sequence::open(flags.poses.path, flags.poses.options);
   posed_frames(sequence, 1);

@@ -77,7 +77,7 @@ void run(const Common& common, BenchmarkFlags flags) {
     print("%s: %s\n", flags.job.c_str(), fault.empty() ? "done" : fault.c_str());
     return;
   }
-  ensure_output_folder(plan.options.out);
+  const MadeFolders made = ensure_output_folder(plan.options.out);
   if (!flags.report_only) write_plan(plan);
   if (flags.plan_only) {
     remove_unsettled_records(plan.options.out, plan.jobs, flags.runner.retry_failed);

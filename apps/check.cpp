@@ -144,7 +144,7 @@ void print_cloud(const Sequence& sequence, const CloudCheckReport& report) {
 }
 
 void run(CheckFlags flags) {
-  if (!flags.json.empty()) ensure_output_file(flags.json);
+  const MadeFolders made = ensure_output_if_given(flags.json);
   flags.sequence.options.as_stored = true;
   const Sequence sequence = open_sequence(flags.sequence);
   const std::vector<std::size_t> frames = frames_with_depth(sequence);

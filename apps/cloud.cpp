@@ -80,7 +80,8 @@ std::vector<std::string> notes_of(const Eigen::Vector3d& origin) {
 
 void run(const CloudFlags& flags) {
   if (flags.sequences.empty() && flags.from.empty()) throw InputError("SEQ", "or --from is needed");
-  ensure_output_file(flags.out);
+  check_extension(flags.out, {".ply"});
+  const MadeFolders made = ensure_output_file(flags.out);
   const Eigen::Vector3d origin(flags.origin[0], flags.origin[1], flags.origin[2]);
   PointCloud cloud =
       flags.from.empty() ? cloud_of_sequences(flags) : read_thinned(flags.from, flags.cloud.voxel, origin);

@@ -125,16 +125,53 @@ void name_values(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) name_values(*command);
 }
 
-bool is_output(const std::string& flag) { return flag == "--out" || flag == "--json" || flag == "--report"; }
+bool is_output(const std::string& flag) {
+  return flag == "--out" || flag == "--json" || flag == "--report" || flag == "OUT";
+}
 
-/// No file is written over one that the same command reads or writes: what a run needs would be gone after it, whatever
-/// comes of it.
-void check_outputs(const CLI::App& command) {
-  namespace fs = std::filesystem;
-  std::vector<const CLI::Option*> given;
+using Options = std::vector<const CLI::Option*>;
+
+/// Those that carry values.
+Options given_options(const CLI::App& command) {
+  Options given;
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() > 0 && option->get_expected_max() > 0) given.push_back(option);
   }
+  return given;
+}
+
+/// A shell variable that was never set, as a rule: nobody means the default by it.
+void check_not_empty(const Options& given) {
+  for (const CLI::Option* option : given) {
+    for (const std::string& value : option->results()) {
+      if (value.empty()) throw InputError(option->get_name(), "is empty");
+    }
+  }
+}
+
+/// No folder that is read is written into, and no file in it replaced: which of its files are read, the layout decides.
+void check_not_among_inputs(const std::string& output, const std::string& value, const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return;
+  const std::string advice = ": take another place";
+  if (fs::is_directory(value, error)) {
+    if (fs::equivalent(value, folder, error)) throw InputError(output, value + " is also read" + advice);
+    return;
+  }
+  if (!fs::is_regular_file(value, error)) return;
+  for (fs::path at = fs::canonical(value, error).parent_path();; at = at.parent_path()) {
+    if (fs::equivalent(at, folder, error)) {
+      throw InputError(output, value + " is a file in " + folder + ", which is read" + advice);
+    }
+    if (at == at.parent_path()) return;
+  }
+}
+
+/// No file is written over one that the same command reads or writes: what a run needs would be gone after it, whatever
+/// comes of it.
+void check_outputs(const Options& given) {
+  namespace fs = std::filesystem;
   const auto same = [](const std::string& a, const std::string& b) {
     std::error_code error;
     if (fs::is_regular_file(a, error) && fs::is_regular_file(b, error)) return fs::equivalent(a, b, error);
@@ -146,12 +183,14 @@ void check_outputs(const CLI::App& command) {
     for (const CLI::Option* other : given) {
       if (other == output) continue;
       for (const std::string& value : other->results()) {
-        if (value.empty() || output->results().front().empty()) continue;
         std::error_code error;
         if (!is_output(other->get_name()) && !fs::exists(value, error)) continue;
         if (same(value, output->results().front())) {
           throw InputError(output->get_name(), output->results().front() + " is the same file as " + other->get_name() +
                                                    "; one would be written over the other");
+        }
+        if (!is_output(other->get_name())) {
+          check_not_among_inputs(output->get_name(), output->results().front(), value);
         }
       }
     }
@@ -188,7 +227,9 @@ CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, co
       ->type_name("FILE")
       ->group(common_group);
   command->parse_complete_callback([&common, command] {
-    check_outputs(*command);
+    const Options given = given_options(*command);
+    check_not_empty(given);
+    check_outputs(given);
     set_log_level(common.log);
     if (common.threads > 0) {
       set_threads(common.threads);

@@ -215,7 +215,10 @@ void apply_config(CLI::App& command, const std::vector<std::string>& words, cons
     const std::string line = "line " + std::to_string(entry.line);
     CLI::Option* option = command.get_option_no_throw("--" + entry.key);
     if (option == nullptr || entry.key == "config" || entry.key == "help") {
-      throw InputError(file, line, "unknown key " + entry.key + suggestion(nearest_name(entry.key, flags_of(command))));
+      const bool known = option != nullptr;
+      throw InputError(file, line,
+                       known ? "--" + entry.key + " is for the command line alone"
+                             : "unknown key " + entry.key + suggestion(nearest_name(entry.key, flags_of(command))));
     }
     if (given(words, entry.key)) continue;
     try {

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "cloud_files.hpp"
@@ -23,13 +20,6 @@ struct ConvertFlags {
   std::string out;
 };
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 void convert_map(const ConvertFlags& flags) {
   const Gaussians gaussians = read_map(flags.in);
   log_info("writing " + std::to_string(gaussians.size()) + " Gaussians");
@@ -45,12 +35,11 @@ void convert_cloud(const ConvertFlags& flags) {
 }
 
 void run(const ConvertFlags& flags) {
-  const std::string to = extension_of(flags.out);
-  if (to != ".ply" && to != ".splat") throw InputError(flags.out, "must end in .ply or .splat");
-  ensure_output_file(flags.out);
+  check_extension(flags.out, {".ply", ".splat"});
+  const MadeFolders made = ensure_output_file(flags.out);
   if (is_map_file(flags.in)) {
     convert_map(flags);
-  } else if (to == ".splat") {
+  } else if (is_splat_path(flags.out)) {
     throw InputError(flags.in, "holds no Gaussians, which .splat is made of");
   } else {
     convert_cloud(flags);

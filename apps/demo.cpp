@@ -69,13 +69,13 @@ std::string table_of(const std::vector<Row>& rows) {
   return text;
 }
 
-void draw_map_picture(const std::string& out, const DemoWorld& world, const MapPoints& map) {
+void draw_map_picture(const std::string& out, const DemoWorld& world, const MapPoints& map, std::size_t gaussians) {
   MapFigure figure;
   figure.map = map;
   figure.cameras = world.truth;
   figure.camera = world.camera;
   figure.up = Eigen::Vector3d::UnitZ();
-  figure.title = "Map of " + std::to_string(map.cloud.size()) + " Gaussians and the path of the camera";
+  figure.title = "Map of " + std::to_string(gaussians) + " Gaussians and the path of the camera";
   write_rgb8(out + "/map.png", draw_map(figure));
 }
 
@@ -129,7 +129,7 @@ void draw_error_picture(const std::string& out, const std::vector<Row>& rows) {
 
 void run(const Common& common, const std::string& out, const DemoOptions& options) {
   const Stopwatch watch;
-  ensure_output_folder(out);
+  const MadeFolders made = ensure_output_folder(out);
   const DemoWorld world = make_demo_world(out, options);
   TrainJob train;
   train.sequences = {world.sequence};
@@ -142,7 +142,7 @@ void run(const Common& common, const std::string& out, const DemoOptions& option
   for (const char* method : {"gaussian", "interpolation"}) rows.push_back(run_method(common, out, world, method));
 
   const MapPoints map = read_map_points({train.out, world.cloud});
-  draw_map_picture(out, world, map);
+  draw_map_picture(out, world, map, report.gaussians);
   draw_trajectory_picture(out, world, map, rows[0]);
   draw_compare_picture(common, out, world);
   draw_error_picture(out, rows);

@@ -69,7 +69,7 @@ void print_row(const char* name, const Statistics& s, double unit, const char* f
 
 void run(EvalFlags& flags) {
   flags.options.alignment = alignment_from_name(flags.alignment);
-  if (!flags.json.empty()) ensure_output_file(flags.json);
+  const MadeFolders made = ensure_output_if_given(flags.json);
   const JudgedTrajectory judged = read_judged(flags.estimate, flags.estimate_times, flags.truth);
   const EvalResult result = evaluate_or_say_why(judged, flags.options);
   print("%-10s%12s%12s%12s%12s%12s\n", "", "RMSE", "mean", "median", "max", "99 %");

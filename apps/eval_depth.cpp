@@ -122,7 +122,8 @@ void add_eval_depth(CLI::App& app, Common& common) {
              "leave out frames 0, N, 2N ... the map was made from; 0 or none: leave out none");
   command->add_option("--json", job->json, "report to write (JSON)");
   command->final_callback([&common, job] {
-    if (!job->json.empty()) ensure_output_file(job->json);
+    check_flags_of_method(job->method, job->map, job->depth_noise);
+    const MadeFolders made = ensure_output_if_given(job->json);
     const EvalDepthOutcome o = evaluate_depth(common, *job);
     if (!(o.all.valid_share > 0.0) || !std::isfinite(o.all.rmse_m)) {
       throw NoResult("no pixel of " + std::to_string(o.frames) +

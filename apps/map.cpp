@@ -21,6 +21,7 @@ namespace {
 struct MapInfoFlags {
   std::string map;
   std::string json;
+  bool settings = false;
 };
 
 /// What a map's file says of itself.
@@ -80,7 +81,7 @@ void print_quality(const MapQuality& q) {
   print(" looked in by an image\n");
 }
 
-void print_info(const std::string& path, const MapInfo& info) {
+void print_info(const std::string& path, const MapInfo& info, bool settings) {
   print("%s\n", path.c_str());
   print("Gaussians     %zu, colours of SH degree %d\n", info.gaussians, info.sh_degree);
   print("bytes         %ju\n", info.bytes);
@@ -100,6 +101,8 @@ void print_info(const std::string& path, const MapInfo& info) {
   } else {
     print("quality       unknown: the file does not say (only train measures it)\n");
   }
+  print("settings      %zu%s\n", info.settings.size(), settings ? "" : " lines of the header (--settings shows them)");
+  if (!settings) return;
   for (const std::string& line : info.settings) print("  %s\n", line.c_str());
 }
 
@@ -124,9 +127,9 @@ nlohmann::ordered_json json_of(const MapInfo& info) {
 }
 
 void run(const MapInfoFlags& flags) {
-  if (!flags.json.empty()) ensure_output_file(flags.json);
+  const MadeFolders made = ensure_output_if_given(flags.json);
   const MapInfo info = read_info(flags.map);
-  print_info(flags.map, info);
+  print_info(flags.map, info, flags.settings);
   if (!flags.json.empty()) write_file_atomically(flags.json, json_text(json_of(info)));
 }
 
@@ -139,6 +142,7 @@ void add_map(CLI::App& app, Common& common) {
       add_command(*map, common, "info", "what a map holds, how it was trained and what it is worth, as its file says");
   auto flags = std::make_shared<MapInfoFlags>();
   info->add_option("MAP", flags->map, "map of Gaussians (PLY, .splat)")->required();
+  info->add_flag("--settings", flags->settings, "print the training's settings too");
   info->add_option("--json", flags->json, "the same to write (JSON)");
   info->final_callback([flags] { run(*flags); });
 }

@@ -151,6 +151,24 @@ OpenedView open_view(const Common& common, const std::string& method, const MapF
   return opened;
 }
 
+void check_flags_of_method(const std::string& method, const MapFlags& flags, const DepthNoiseFlags& noise) {
+  const MethodPreset& preset = method_preset(method);
+  const std::string not_used = "is not used by method " + method;
+  if (noise.model != "none" && preset.view != ViewKind::sensor) {
+    throw InputError("--depth-noise", not_used + ": it is for the depth images of method rgbd");
+  }
+  if (preset.view != ViewKind::gaussians) {
+    if (!flags.depth.empty()) throw InputError("--depth", not_used + ": it is for maps of Gaussians");
+    return;
+  }
+  if (!flags.cloud.empty()) log_warning("--cloud " + not_used);
+  if (method != "paper" || flags.map.empty()) return;
+  const std::vector<std::string> notes = read_map_notes(flags.map);
+  if (std::find(notes.begin(), notes.end(), "position_length gaussian_size") != notes.end()) {
+    log_warning(flags.map + ": was trained with the default preset; the paper's recipe is train --preset paper");
+  }
+}
+
 MapHalf map_half(const MapFlags& flags, const std::string& side) {
   return half_of(flags.map.empty() ? read_point_cloud(flags.cloud).points : positions(read_map(flags.map)), side);
 }

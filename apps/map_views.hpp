@@ -67,6 +67,10 @@ struct OpenedView {
 OpenedView open_view(const Common& common, const std::string& method, const MapFlags& flags,
                      const DepthNoiseFlags& noise = {});
 
+/// Tells of flags that the method makes nothing of: InputError for --depth and --depth-noise, which somebody expects
+/// other results from; a warning for --cloud beside a map, and for a map that is not of the method's own training.
+void check_flags_of_method(const std::string& method, const MapFlags& flags, const DepthNoiseFlags& noise = {});
+
 /// What the figures draw: the Gaussians' discs if there is a map, else the points of the cloud.
 MapPoints read_map_points(const MapFlags& flags);
 

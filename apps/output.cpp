@@ -2,10 +2,13 @@
 // Copyright 2026 The odosplat authors
 #include "output.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <string>
 
@@ -21,6 +24,22 @@ namespace {
 }
 
 }  // namespace
+
+MadeFolders ensure_output_if_given(const std::string& path) {
+  return path.empty() ? MadeFolders({}) : ensure_output_file(path);
+}
+
+void check_extension(const std::string& path, std::initializer_list<const char*> extensions) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string names;
+  for (const char* name : extensions) {
+    if (extension == name) return;
+    names += (names.empty() ? "" : " or ") + std::string(name);
+  }
+  throw InputError(path, "must end in " + names);
+}
 
 void print(const char* format, ...) {
   std::va_list arguments;

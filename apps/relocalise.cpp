@@ -151,7 +151,7 @@ nlohmann::ordered_json json_of(const Row& row) {
 }
 
 void run(const Common& common, const RelocaliseJob& job) {
-  if (!job.json.empty()) ensure_output_file(job.json);
+  const MadeFolders made = ensure_output_if_given(job.json);
   const Sequence sequence = open_sequence(job.sequence);
   const std::vector<std::size_t> frames = chosen_frames(common, sequence, job);
   const std::vector<SE3> places = places_of(job.map, job.places);

@@ -62,7 +62,8 @@ std::string file_of(const RenderFlags& flags, const char* kind, std::size_t k) {
 
 void run(const Common& common, const RenderFlags& flags) {
   const Wanted wanted = parse_what(flags.what);
-  ensure_output_folder(flags.out);
+  check_flags_of_method(flags.method, flags.map);
+  const MadeFolders made = ensure_output_folder(flags.out);
   const CameraFile camera = read_camera_file(flags.camera);
   const PoseFile file = read_pose_file(flags.poses);
   const Trajectory& poses = file.poses;

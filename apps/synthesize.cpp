@@ -133,7 +133,8 @@ void run(const SynthesizeFlags& flags) {
   if (flags.out.empty() && flags.cloud.empty()) throw InputError("--out or --cloud", "is needed");
   if (!flags.out.empty() && flags.walk.empty()) throw InputError("--walk", "is needed with --out");
   const SceneDescription description = open_scene(flags.scene);
-  if (!flags.cloud.empty()) ensure_output_file(flags.cloud);
+  if (!flags.cloud.empty()) check_extension(flags.cloud, {".ply"});
+  const MadeFolders made_folders = ensure_output_if_given(flags.cloud);
   std::optional<Scene> made;
   auto scene = [&]() -> const Scene& {
     if (!made) made.emplace(make_scene(description, flags.seed));

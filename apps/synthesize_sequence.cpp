@@ -27,10 +27,10 @@ std::string file_of(const char* kind, std::size_t frame) {
   return name;
 }
 
-void claim_folder(const SyntheticSequence& sequence) {
-  ensure_output_folder(sequence.folder);
+MadeFolders claim_folder(const SyntheticSequence& sequence) {
+  MadeFolders made = ensure_output_folder(sequence.folder);
   const std::string stamp = sequence.folder + "/settings.txt";
-  if (fs::exists(stamp) && read_file(stamp) == sequence.what) return;
+  if (fs::exists(stamp) && read_file(stamp) == sequence.what) return made;
   if (!sequence.replace && fs::exists(stamp)) {
     throw InputError(sequence.folder, "holds frames of other settings (settings.txt): take another folder");
   }
@@ -40,6 +40,7 @@ void claim_folder(const SyntheticSequence& sequence) {
   fs::remove_all(sequence.folder + "/rgb");
   fs::remove_all(sequence.folder + "/depth");
   write_file_atomically(stamp, sequence.what);
+  return made;
 }
 
 void write_frame(const SyntheticSequence& sequence, const Scene& scene, std::size_t k) {
@@ -72,7 +73,7 @@ void write_lists(const SyntheticSequence& sequence) {
 }  // namespace
 
 int write_synthetic_sequence(const SyntheticSequence& sequence, const std::function<const Scene&()>& scene) {
-  claim_folder(sequence);
+  const MadeFolders made = claim_folder(sequence);
   std::vector<std::size_t> missing;
   for (std::size_t k = 0; k < sequence.truth.size(); ++k) {
     // A frame's colour is written after its depth.

@@ -234,7 +234,7 @@ void write_what_there_is(Run& run, const TrackRecord& record) {
 }  // namespace
 
 TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
-  ensure_output_folder(job.out);
+  const MadeFolders made = ensure_output_folder(job.out);
   const Sequence sequence = open_sequence(job.sequence);
   if (sequence.size() == 0) throw InputError(sequence.name(), "holds no images");
   FrameRange range = job.frames.empty() ? FrameRange() : parse_frames(job.frames);
@@ -299,6 +299,7 @@ void add_track(CLI::App& app, Common& common) {
   command->final_callback([&common, job, anchor, relocalise] {
     job->relocalise = *relocalise == "on";
     if (!anchor->empty()) job->anchor = *anchor == "on";
+    check_flags_of_method(job->method, job->map, job->depth_noise);
     const TrackOutcome o = track_sequence(common, *job);
     print("%s: %d of %d frames posed, %d lost, %d keyframes, %.1f ms a frame (95 %%: %.1f ms)\n", job->out.c_str(),
           o.posed, o.frames, o.lost, o.keyframes, o.median_ms, o.p95_ms);

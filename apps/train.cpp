@@ -50,9 +50,12 @@ InitializeOptions initialize_options(const TrainJob& job) {
 }
 
 std::string progress_text(const TrainingStep& step, const TrainingReport& report) {
+  // Of one image alone it would tell how dark that image is. Zero: no image has been seen at full size yet.
+  char psnr[24] = "-";
+  if (report.psnr_db > 0.0) std::snprintf(psnr, sizeof(psnr), "%.2f dB", report.psnr_db);
   char text[160];
-  std::snprintf(text, sizeof(text), "loss %.4f  PSNR %.2f dB  %zu Gaussians  %.1f it/s", step.value.loss,
-                step.value.psnr_db(), report.gaussians, report.iterations_per_second);
+  std::snprintf(text, sizeof(text), "loss %.4f  PSNR %s  %zu Gaussians  %.1f it/s", step.value.loss, psnr,
+                report.gaussians, report.iterations_per_second);
   return text;
 }
 
@@ -63,7 +66,9 @@ void take_up(const TrainJob& job, Trainer& trainer) {
   const std::string file = checkpoint_file(job);
   const bool there = std::filesystem::is_regular_file(file);
   if (!job.resume) {
-    if (there) log_warning(file + " of an earlier run is replaced: --resume would go on from it");
+    if (!there) return;
+    std::filesystem::rename(file, file + ".old");
+    log_warning("the checkpoint of an earlier run, which --resume would go on from, is kept as " + file + ".old");
     return;
   }
   if (!there) {
@@ -199,8 +204,9 @@ void name_odd_images(const std::vector<ViewQuality>& qualities, const SequenceVi
 TrainOutcome train_map(const Common& common, const TrainJob& job) {
   const InitializeOptions initial = initialize_options(job);
   initial.check();
-  ensure_output_file(job.out);
-  if (!job.report.empty()) ensure_output_file(job.report);
+  check_extension(job.out, {".ply", ".splat"});
+  const MadeFolders made = ensure_output_file(job.out);
+  const MadeFolders made_for_report = ensure_output_if_given(job.report);
   SequenceViews views(job.sequences, job.sequence_options, job.every,
                       job.frames.empty() ? FrameRange() : parse_frames(job.frames));
   const TrainerOptions options = trainer_options(job, views.count());

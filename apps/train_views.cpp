@@ -2,14 +2,62 @@
 // Copyright 2026 The odosplat authors
 #include "train_views.hpp"
 
+#include <algorithm>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
+#include "odosplat/core/parallel.hpp"
+
 namespace odosplat::apps {
+namespace {
+
+/// What is wrong with each frame's image; empty: nothing.
+std::vector<std::string> image_faults(const Sequence& sequence, const std::vector<std::size_t>& frames) {
+  std::vector<std::string> faults(frames.size());
+  parallel_for(static_cast<int>(frames.size()), 1, [&](int begin, int end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      try {
+        sequence.color(frames[k]);
+      } catch (const InputError& e) {
+        faults[k] = e.what();
+      }
+    }
+  });
+  return faults;
+}
+
+}  // namespace
 
 SequenceViews::SequenceViews(const std::vector<std::string>& paths, const SequenceOptions& options, int every,
                              const FrameRange& range) {
+  std::size_t unreadable = 0;
+  std::string first_fault;
   for (const std::string& path : paths) {
     sequences_.push_back(Sequence::open(path, options));
-    for (const std::size_t frame : posed_frames(sequences_.back(), every, range))
-      frames_.push_back({sequences_.size() - 1, frame});
+    const std::vector<std::size_t> frames = posed_frames(sequences_.back(), every, range);
+    const std::vector<std::string> faults = image_faults(sequences_.back(), frames);
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      if (faults[k].empty()) {
+        frames_.push_back({sequences_.size() - 1, frames[k]});
+      } else if (unreadable++ == 0) {
+        first_fault = faults[k];
+      }
+    }
+  }
+  if (unreadable == 0) return;
+  const std::string share = std::to_string(unreadable) + " of " + std::to_string(unreadable + frames_.size()) +
+                            " images cannot be read, such as " + first_fault;
+  if (frames_.empty()) throw InputError(share);
+  log_warning(share + "; they are left out");
+}
+
+DepthImage SequenceViews::depth(int i) {
+  if (!sequence(i).has_depth(at(i).frame)) return {};
+  try {
+    return sequence(i).depth(at(i).frame);
+  } catch (const InputError& e) {
+    log_warning(std::string(e.what()) + "; its depth is left out");
+    return {};
   }
 }
 

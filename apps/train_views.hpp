@@ -11,10 +11,11 @@
 
 namespace odosplat::apps {
 
-/// Every Nth posed frame of some sequences, read from disk when asked for.
+/// Every Nth posed frame of some sequences, read from disk when asked for. Frames whose image cannot be read are left
+/// out, with one warning; damaged depth is none.
 class SequenceViews : public TrainingViews {
  public:
-  /// InputError for a sequence that cannot be read or has no such frame.
+  /// Reads every image once. InputError for a sequence that cannot be read or has no such frame.
   SequenceViews(const std::vector<std::string>& paths, const SequenceOptions& options, int every,
                 const FrameRange& range);
 
@@ -22,9 +23,7 @@ class SequenceViews : public TrainingViews {
   Camera camera(int i) const override { return sequence(i).camera(); }
   SE3 T_world_camera(int i) const override { return *sequence(i).T_world_camera(at(i).frame); }
   ColorImage color(int i) override { return sequence(i).color(at(i).frame); }
-  DepthImage depth(int i) override {
-    return sequence(i).has_depth(at(i).frame) ? sequence(i).depth(at(i).frame) : DepthImage();
-  }
+  DepthImage depth(int i) override;
 
   /// Where view i comes from.
   std::string sequence_name(int i) const { return sequence(i).name(); }

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/io/comparable_stamps.hpp"
 
 namespace odosplat::apps {
@@ -19,6 +20,7 @@ constexpr double rounding = 1e-6;  // [s] of stamps with six decimals
 struct Truth {
   PoseFile file;
   std::optional<TimeSpan> span;
+  std::vector<double> frame_times;  // of a sequence's images
 };
 
 bool is_sequence(const TruthFlags& flags) {
@@ -39,6 +41,7 @@ Truth truth_of_sequence(const TruthFlags& flags) {
   }
   Truth truth;
   truth.span = TimeSpan{sequence.time(range.begin), sequence.time(range.end - 1)};
+  for (std::size_t i = range.begin; i < range.end; ++i) truth.frame_times.push_back(sequence.time(i));
   for (const StampedPose& pose : sequence.truth()) {
     const bool inside = pose.time >= truth.span->first - rounding && pose.time <= truth.span->last + rounding;
     if (flags.frames.empty() || inside) truth.file.poses.push_back(pose);
@@ -55,7 +58,19 @@ Truth read_truth(const TruthFlags& flags) {
   if (is_sequence(flags)) return truth_of_sequence(flags);
   if (!flags.frames.empty())
     throw InputError("--frames", "needs a sequence as --truth, " + flags.sequence.path + " is a file");
-  return {read_pose_file(flags.sequence.path, flags.times), {}};
+  return {read_pose_file(flags.sequence.path, flags.times), {}, {}};
+}
+
+/// Poses without times that are as many as the images are those of the images, in their order.
+void take_times_of_frames(const std::string& name, const std::vector<double>& times, PoseFile& file) {
+  const std::size_t count = file.poses.size() + file.times_without_pose.size();
+  if (file.stamps != StampKind::line_numbers || times.empty() || count != times.size()) return;
+  log_info(name + ": has no times; its " + std::to_string(count) + " poses are taken for those of the " +
+           std::to_string(count) + " images, in order");
+  const auto time_of = [&times](double number) { return times.at(static_cast<std::size_t>(number)); };
+  for (StampedPose& pose : file.poses) pose = {time_of(pose.time), pose.T_world_camera, ""};
+  for (double& time : file.times_without_pose) time = time_of(time);
+  file.stamps = StampKind::times;
 }
 
 // Times of the first and the last image in the table that `track` writes beside its trajectory.
@@ -88,6 +103,7 @@ CLI::Option* add_truth_flags(CLI::App* command, TruthFlags& flags) {
 JudgedTrajectory read_judged(const std::string& estimate, const std::string& estimate_times, const TruthFlags& flags) {
   PoseFile estimated = read_pose_file(estimate, estimate_times);
   Truth truth = read_truth(flags);
+  take_times_of_frames(estimate, truth.frame_times, estimated);
   if (!flags.sequence.path.empty()) {
     require_comparable_stamps({estimated, estimate, "--times"}, {truth.file, flags.sequence.path, "--truth-times"});
   }

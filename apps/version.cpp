@@ -7,7 +7,7 @@
 namespace odosplat::apps {
 namespace {
 
-std::string compiler() {
+const char* compiler() {
 #if defined(__clang__)
   return "Clang " __clang_version__;
 #elif defined(__GNUC__)
@@ -20,7 +20,9 @@ std::string compiler() {
 }  // namespace
 
 std::string version_text() {
-  std::string text = "odosplat " ODOSPLAT_VERSION "\nbuild: " + compiler() + ", " ODOSPLAT_BUILD_TYPE;
+  std::string text = "odosplat " ODOSPLAT_VERSION "\nbuild: ";
+  text += compiler();
+  text += ", " ODOSPLAT_BUILD_TYPE;
   const std::vector<compute::DeviceInfo> devices = compute::list_devices();
   if (devices.empty()) text += "\ndevice: none; " + compute::no_device_reason();
   for (const compute::DeviceInfo& d : devices) {

@@ -34,8 +34,11 @@ struct MapViewFlags {
 };
 
 void run_map(const MapViewFlags& flags) {
+  if (flags.map.map.empty() && flags.map.cloud.empty() && flags.poses.empty()) {
+    throw InputError("--map, --cloud or --poses", "is needed: there is nothing to draw");
+  }
   MapFigure figure;
-  set_size(flags.output, figure);
+  const MadeFolders made = prepare_picture(flags.output, figure);
   figure.map = read_map_points(flags.map);
   if (!flags.poses.empty()) figure.cameras = read_trajectory(flags.poses);
   require_near_origin(flags.poses, figure.cameras);
@@ -65,13 +68,18 @@ std::string error_title(const Trajectory& estimate, const Trajectory& truth) {
 
 void run_trajectory(const TrajectoryViewFlags& flags) {
   TrajectoryFigure figure;
-  set_size(flags.output, figure);
+  const MadeFolders made = prepare_picture(flags.output, figure);
   figure.map = read_map_points(flags.map);
   JudgedTrajectory judged = read_judged(flags.estimate, flags.times, flags.truth);
   figure.estimate = std::move(judged.estimate);
   figure.truth = std::move(judged.truth);
   // Of which images the run was is not known of other people's trajectories: their ends are not taken for lost.
   figure.span = judged.span.value_or(TimeSpan{figure.estimate.front().time, figure.estimate.back().time});
+  // Where the truth was before and after the run says nothing of it.
+  constexpr double slack = 0.01;  // [s] that matched poses may be apart
+  std::erase_if(figure.truth, [&](const StampedPose& pose) {
+    return pose.time < figure.span->first - slack || pose.time > figure.span->last + slack;
+  });
   require_near_origin(flags.estimate, figure.estimate);
   require_near_origin(flags.truth.sequence.path, figure.truth);
   figure.title = flags.title;
@@ -90,7 +98,8 @@ struct FrameViewFlags {
 
 void run_depth(const Common& common, const FrameViewFlags& flags) {
   DepthFigure figure;
-  set_size(flags.output, figure);
+  const MadeFolders made = prepare_picture(flags.output, figure);
+  check_flags_of_method(flags.method, flags.map);
   const Sequence sequence = open_sequence(flags.sequence);
   const std::size_t frame = flags.frames.at(0);
   const SE3 T_world_camera = pose_of_frame(sequence, frame);
@@ -112,7 +121,7 @@ void run_depth(const Common& common, const FrameViewFlags& flags) {
 
 void run_compare(const Common& common, const FrameViewFlags& flags) {
   CompareFigure figure;
-  set_size(flags.output, figure);
+  const MadeFolders made = prepare_picture(flags.output, figure);
   const Sequence sequence = open_sequence(flags.sequence);
   for (const std::size_t frame : flags.frames) pose_of_frame(sequence, frame);
   ComparedViews views = open_compared_views(common, flags.map);
@@ -125,7 +134,7 @@ void run_compare(const Common& common, const FrameViewFlags& flags) {
 
 void run_association(const Common& common, const FrameViewFlags& flags) {
   AssociationFigure figure;
-  set_size(flags.output, figure);
+  const MadeFolders made = prepare_picture(flags.output, figure);
   const Sequence sequence = open_sequence(flags.sequence);
   const std::size_t frame = flags.frames.at(0);
   pose_of_frame(sequence, frame);

@@ -45,7 +45,7 @@ ValueRange depth_range_along(MapView& view, const Camera& camera, const Trajecto
 
 void run(const Common& common, const FlyFlags& flags) {
   check_video_name(flags.out);
-  ensure_output_file(flags.out);
+  const MadeFolders made = ensure_output_file(flags.out);
   Camera camera = read_camera_file(flags.camera).camera;
   if (!flags.size.empty()) {
     const Size size = parse_size("--size", flags.size);

@@ -27,12 +27,13 @@ CLI::App* add_view_kind(CLI::App* parent, Common& common, const char* name, cons
 /// To be called before anything is computed: proves that the file can be written, and sets figure.size if one was
 /// given.
 template <typename Figure>
-void set_size(const ViewOutputFlags& flags, Figure& figure) {
+[[nodiscard]] MadeFolders prepare_picture(const ViewOutputFlags& flags, Figure& figure) {
   check_picture_name(flags.out);
-  ensure_output_file(flags.out);
-  if (flags.size.empty()) return;
+  MadeFolders made = ensure_output_file(flags.out);
+  if (flags.size.empty()) return made;
   const Size size = parse_size("--size", flags.size);
   figure.size = {size.width, size.height};
+  return made;
 }
 
 /// Writes the picture and says so.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <vector>
 
 #include "odosplat/core/error.hpp"
@@ -23,9 +24,14 @@ struct Panel {
   ColorBar bar;
 };
 
-double largest_of(const cv::Mat1f& image) {
-  const ValueRange range = depth_range_of({&image});
-  return range.high;
+/// What nearly all values lie below: a few strays at the map's border are many times the rest.
+double most_of(const cv::Mat1f& image) {
+  std::vector<float> values;
+  std::ranges::copy_if(image, std::back_inserter(values), [](float v) { return v > 0.0F && std::isfinite(v); });
+  if (values.empty()) return 1.0;
+  const auto k = values.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), k, values.end());
+  return *k;
 }
 
 std::vector<Panel> make_panels(const DepthFigure& figure) {
@@ -42,7 +48,7 @@ std::vector<Panel> make_panels(const DepthFigure& figure) {
                     true,
                     {ColorScale::depth, range.low, range.high, "depth (m)", 0.0, 1.0, false, true}});
   if (!figure.sigma.empty()) {
-    const double high = figure.sigma_max > 0.0 ? figure.sigma_max : nice_ceiling(largest_of(figure.sigma));
+    const double high = figure.sigma_max > 0.0 ? figure.sigma_max : nice_ceiling(most_of(figure.sigma));
     const LengthUnit unit = length_unit(high);
     const bool beyond = std::ranges::any_of(figure.sigma, [&](float v) { return std::isfinite(v) && v > high; });
     panels.push_back(

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/viewer/map_figure.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "odosplat/core/error.hpp"
@@ -66,6 +67,25 @@ void add_frustum(FigureMesh& mesh, const Camera& camera, const SE3& T_world_came
   }
 }
 
+/// Some of the cameras, at even steps, without those that would be drawn over another that looks the same way.
+std::vector<SE3> shown_cameras(const MapFigure& figure, double depth) {
+  constexpr double clear = 1.5;     // frusta [depths]
+  constexpr double same_way = 0.5;  // cosine
+  std::vector<SE3> shown;
+  const auto count = std::min<std::size_t>(static_cast<std::size_t>(figure.frusta), figure.cameras.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const SE3& T = figure.cameras[k * figure.cameras.size() / count].T_world_camera;
+    if (!T.is_finite()) continue;
+    const Eigen::Vector3d way = T.rotation() * Eigen::Vector3d::UnitZ();
+    const bool hidden = std::ranges::any_of(shown, [&](const SE3& other) {
+      return (other.translation() - T.translation()).norm() < clear * depth &&
+             way.dot(other.rotation() * Eigen::Vector3d::UnitZ()) > same_way;
+    });
+    if (!hidden) shown.push_back(T);
+  }
+  return shown;
+}
+
 }  // namespace
 
 cv::Mat3b draw_map(const MapFigure& figure) {
@@ -84,11 +104,8 @@ cv::Mat3b draw_map(const MapFigure& figure) {
     if (camera.width == 0) camera = {640, 480, 554.0, 554.0, 319.5, 239.5};
     camera.check();
     const double depth = figure.frustum_depth > 0.0 ? figure.frustum_depth : 0.05 * layout.page.width * pixel;
-    const auto count = std::min<std::size_t>(static_cast<std::size_t>(figure.frusta), figure.cameras.size());
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto& pose = figure.cameras[k * figure.cameras.size() / count];
-      if (!pose.T_world_camera.is_finite()) continue;
-      add_frustum(lines.mesh, camera, pose.T_world_camera, depth, std::max(0.5, 0.0011 * layout.page.width) * pixel);
+    for (const SE3& T_world_camera : shown_cameras(figure, depth)) {
+      add_frustum(lines.mesh, camera, T_world_camera, depth, std::max(0.5, 0.0011 * layout.page.width) * pixel);
     }
     layers.push_back(std::move(lines));
   }

@@ -18,7 +18,7 @@ struct MapFigure {
   MapPoints map;
   Trajectory cameras;                            // T_world_camera; may be empty
   Camera camera;                                 // shape of the frusta; width 0: 4:3 with 60 degrees across
-  int frusta = 20;                               // how many of the cameras show theirs, >= 0
+  int frusta = 20;                               // most of the cameras that show theirs, >= 0
   double frustum_depth = 0.0;                    // [m]; 0: a twentieth of the picture's width
   Eigen::Vector3d up = Eigen::Vector3d::Zero();  // of the world; zero: from the cameras
   double cut_height = automatic_cut;             // [m] along up; see prepare_map

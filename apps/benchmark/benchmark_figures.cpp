@@ -217,7 +217,7 @@ cv::Mat3b benchmark_errors(const BenchmarkResults& results) {
 std::vector<ReportFigure> draw_benchmark_figures(const Common& common, const BenchmarkResults& results,
                                                  const std::map<std::string, MapFlags>& maps,
                                                  const std::string& folder) {
-  ensure_output_folder(folder + "/figures");
+  const MadeFolders made = ensure_output_folder(folder + "/figures");
   std::vector<ReportFigure> figures;
   const auto add = [&](const std::string& title, const std::function<ReportFigure()>& draw) {
     if (interrupted()) throw Interrupted();

@@ -62,10 +62,10 @@ void clear_leftovers(const std::string& out, const Job& job, const std::string& 
 std::unique_ptr<ChildProcess> start(const std::string& out, const Job& job, const std::string& fingerprint,
                                     const RunnerOptions& options, const std::string& program) {
   const std::string log = log_file(out, job.id);
-  ensure_output_file(log);
+  const MadeFolders made = ensure_output_file(log);
   fs::remove(record_file(out, job.id));
   clear_leftovers(out, job, fingerprint);
-  for (const std::string& file : job.outputs) ensure_output_file(file);
+  for (const std::string& file : job.outputs) ensure_output_file(file).keep();
   return std::make_unique<ChildProcess>(command_of(job, options, program), log,
                                         ProcessLimits{options.time_limit, options.memory_limit});
 }

@@ -115,6 +115,11 @@ EvalResult evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   }
   result.rte_m = statistics(relative_translations);
   result.rre_deg = statistics(relative_rotations);
+  for (const Statistics* s : {&result.ate_m, &result.are_deg, &result.rte_m, &result.rre_deg}) {
+    if (s->count > 0 && !(std::isfinite(s->rmse) && std::isfinite(s->max))) {
+      throw InputError("trajectories", "positions are so large that their errors are no numbers");
+    }
+  }
   return result;
 }
 

@@ -29,10 +29,20 @@ std::string reason_of(const std::system_error& e) {
   return e.code().value() == ESTALE ? "its temporary file was replaced by another program" : e.code().message();
 }
 
-void make_folder(const std::string& folder, const std::string& named_in_error) {
+/// Those that were missing.
+MadeFolders make_folder(const std::string& folder, const std::string& named_in_error) {
   std::error_code error;
+  std::vector<std::string> missing;
+  for (fs::path at(folder); !at.empty() && !fs::exists(at, error); at = at.parent_path()) {
+    missing.push_back(at.string());
+    if (at == at.parent_path()) break;
+  }
   fs::create_directories(folder, error);
-  if (error) throw InputError(named_in_error, cannot_write(error.message()));
+  if (error) {
+    const MadeFolders some(std::move(missing));  // parents may have been made
+    throw InputError(named_in_error, cannot_write(error.message()));
+  }
+  return MadeFolders(std::move(missing));
 }
 
 std::string parent_of(const std::string& path) {
@@ -79,8 +89,16 @@ void prove_writable(const std::string& folder, const std::string& named_in_error
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path, TemporaryName name) : path_(std::move(path)), target_(resolved(path_)) {
-  make_folder(parent_of(target_), path_);
+MadeFolders::~MadeFolders() {
+  // remove() takes a folder only when it is empty.
+  for (const std::string& folder : folders_) {
+    std::error_code ignored;
+    if (fs::is_directory(folder, ignored)) fs::remove(folder, ignored);
+  }
+}
+
+AtomicFile::AtomicFile(std::string path, TemporaryName name)
+    : path_(std::move(path)), target_(resolved(path_)), made_(make_folder(parent_of(target_), path_)) {
   struct stat old {};
   if (find_replaced(path_, target_, old)) {
     old_mode_ = static_cast<int>(old.st_mode & 0777U);
@@ -144,20 +162,22 @@ void write_file_atomically(const std::string& path, std::string_view bytes, Dura
   file.commit(durability);
 }
 
-void ensure_output_folder(const std::string& path) {
-  make_folder(path, path);
+MadeFolders ensure_output_folder(const std::string& path) {
+  MadeFolders made = make_folder(path, path);
   prove_writable(path, path);
   remove_leftovers(path, "");
+  return made;
 }
 
-void ensure_output_file(const std::string& path) {
+MadeFolders ensure_output_file(const std::string& path) {
   const std::string target = resolved(path);
   struct stat ignored {};
   find_replaced(path, target, ignored);
   const std::string parent = parent_of(target);
-  make_folder(parent, path);
+  MadeFolders made = make_folder(parent, path);
   prove_writable(parent, path);
   remove_leftovers(parent, fs::path(target).filename().string());
+  return made;
 }
 
 std::string read_file(const std::string& path, std::uint64_t max_bytes) {

@@ -6,6 +6,8 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "odosplat/io/temporary_file.hpp"
 
@@ -18,6 +20,21 @@ enum class Durability { synced, fast };
 /// Who the temporary file's name is read by: nobody, or an encoder that tells the format by the extension
 /// (given to it in small letters).
 enum class TemporaryName { plain, keep_extension };
+
+/// Folders that were made for an output. Those that are empty when it ends are removed: a run that is refused leaves
+/// nothing behind.
+class MadeFolders {
+ public:
+  explicit MadeFolders(std::vector<std::string> folders) : folders_(std::move(folders)) {}
+  ~MadeFolders();
+  MadeFolders(MadeFolders&&) = default;
+  MadeFolders& operator=(MadeFolders&&) = delete;
+  /// For another program to write into: they stay.
+  void keep() { folders_.clear(); }
+
+ private:
+  std::vector<std::string> folders_;  // the innermost first
+};
 
 /// A file that is written beside its place and renamed at the end: a reader sees the old file or the whole new one,
 /// never a part. Missing parent folders are made. A link is written through: the file that it names is replaced, in
@@ -44,7 +61,8 @@ class AtomicFile {
 
   std::string path_;
   std::string target_;  // path_ with its last links resolved
-  int old_mode_ = -1;   // of the file that is replaced; -1: there is none
+  MadeFolders made_;
+  int old_mode_ = -1;  // of the file that is replaced; -1: there is none
   unsigned old_owner_ = 0;
   unsigned old_group_ = 0;
   std::unique_ptr<TemporaryFile> temporary_;
@@ -54,12 +72,13 @@ class AtomicFile {
 void write_file_atomically(const std::string& path, std::string_view bytes, Durability durability = Durability::synced);
 
 /// Makes the folder (and its parents) if need be and proves that files can be written there. InputError otherwise.
-/// Removes temporary files that killed runs left in it. Programs call this before they compute anything.
-void ensure_output_folder(const std::string& path);
+/// Removes temporary files that killed runs left in it. Programs call this before they compute anything and keep what
+/// it returns until they have written.
+[[nodiscard]] MadeFolders ensure_output_folder(const std::string& path);
 
 /// The same for the folder of a file that will be written later, and for that file's leftovers. InputError also if the
 /// file could not be replaced (see AtomicFile).
-void ensure_output_file(const std::string& path);
+[[nodiscard]] MadeFolders ensure_output_file(const std::string& path);
 
 /// The most that a file read at once may hold: what is beyond fills the memory before its content can be judged. Lists,
 /// trajectories and descriptions of millions of lines lie below the first, models and maps of millions of points below

@@ -74,6 +74,7 @@ CameraFile published_camera(int width, int height, double fx, double fy, double 
   file.fy_sign = fy < 0.0 ? -1 : 1;
   file.depth_scale = depth_scale;
   file.has_depth_scale = true;
+  file.fps = default_fps;
   return file;
 }
 
@@ -110,6 +111,9 @@ std::map<long long, SE3> read_numbered_poses(const std::string& path) {
 
 void fill_numbered(const NumberedFiles& files, SequenceIndex& index) {
   const double fps = index.camera.fps > 0.0 ? index.camera.fps : default_fps;
+  if (index.camera.fps <= 0.0) {
+    log_info(index.camera_source + " says no fps: the images count as 30 a second");
+  }
   for (const auto& [number, color] : files.color) {
     FrameFiles frame;
     frame.time = static_cast<double>(number) / fps;

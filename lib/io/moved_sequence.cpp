@@ -57,7 +57,7 @@ std::size_t write_moved_sequence(const std::string& folder, const Sequence& sequ
   CameraFile camera = sequence.camera_file();
   camera.depth_scale /= moved.scale;
   if (!camera.vignette.empty()) camera.vignette = listed_path(camera.vignette);
-  ensure_output_folder(folder);
+  const MadeFolders made = ensure_output_folder(folder);
   write_camera_file(join(folder, "camera.yaml"), camera);
   write_trajectory(join(folder, "groundtruth.txt"), truth);
   write_or_remove(join(folder, "depth.txt"), any_depth, depths);

@@ -159,10 +159,18 @@ struct Sequence::Data {
   void require_files() {
     bool any_depth = false;
     bool wants_depth = false;
+    std::size_t missing = 0;
+    std::string first_missing;
     for (const FrameFiles& f : index.frames) {
-      if (!index.video && !file_exists(f.color)) throw InputError(f.color, "is missing");
+      if (!index.video && !file_exists(f.color) && missing++ == 0) first_missing = f.color;
       wants_depth = wants_depth || !f.depth.empty();
       any_depth = any_depth || (!f.depth.empty() && file_exists(f.depth));
+    }
+    // Like a damaged image, one that is not there is its frame's fault.
+    if (missing == index.frames.size() && missing > 0) throw InputError(first_missing, "is missing");
+    if (missing > 0) {
+      log_warning(name + ": " + std::to_string(missing) + " of " + std::to_string(index.frames.size()) +
+                  " listed images are missing, such as " + first_missing);
     }
     if (wants_depth && !any_depth) {
       log_debug(name + ": the listed depth files are not there; reading without depth");

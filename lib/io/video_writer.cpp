@@ -51,7 +51,7 @@ VideoWriter::VideoWriter(std::string path, cv::Size size, double fps) {
   require(size.width > 0 && size.height > 0 && size.width % 2 == 0 && size.height % 2 == 0, "size of a video",
           "even and positive");
   require(std::isfinite(fps) && fps > 0.0 && fps <= 1000.0, "frames a second", "more than 0 and at most 1000");
-  ensure_output_file(path);
+  const MadeFolders made = ensure_output_file(path);
   state_ = std::make_unique<State>(path);
   State& s = *state_;
   const std::string& beside = s.file.temporary_name();

@@ -34,8 +34,8 @@ Row& Row::flag(const std::string& column, bool value) {
 }
 
 Output::Output(const Job& job) : json_file_(job.json), trace_file_(job.trace) {
-  if (!json_file_.empty()) ensure_output_file(json_file_);
-  if (!trace_file_.empty()) ensure_output_file(trace_file_);
+  if (!json_file_.empty()) ensure_output_file(json_file_).keep();
+  if (!trace_file_.empty()) ensure_output_file(trace_file_).keep();
 }
 
 void Output::add(const Row& row) {

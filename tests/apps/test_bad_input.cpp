@@ -81,7 +81,9 @@ TEST_F(BadInput, MissingFiles) {
                  "is missing", scratch_ / "m.ply");
   expect_refused({"track", sequence_, "--map", scratch_ / "no.ply", "--out", scratch_ / "run"}, "no.ply", "is missing");
   fs::remove(sequence_ + "/rgb/0005.png");
-  expect_cloud_refused("0005.png", "");
+  expect_cloud_without("0005.png", ": is missing");
+  for (const auto& entry : fs::directory_iterator(sequence_ + "/rgb")) fs::remove(entry.path());
+  expect_cloud_refused("0000.png", "is missing");
 }
 
 TEST_F(BadInput, TruncatedImages) {
@@ -244,6 +246,13 @@ TEST_F(BadInput, Flags) {
   expect_refused(with({"--method", "rgbd", "--depth-noise", "fog"}), "--depth-noise", "fog");
   expect_refused(with({"--method", "interpolation", "--start", "1 2 3"}), "--start", "");
   expect_refused(with({"--method", "interpolation", "--start", "0 0 0 0 0 0 0"}), "--start", "quaternion");
+  expect_refused(with({"--method", "interpolation", "--depth-noise", "kinect"}), "--depth-noise",
+                 "is not used by method interpolation");
+  expect_refused(with({"--method", "surfel", "--depth", "median"}), "--depth", "is not used by method surfel");
+  expect_refused({"view", "map", "--out", scratch_ / "x.png"}, "--map", "nothing to draw", scratch_ / "x.png");
+  expect_refused({"train", sequence_, "--cloud", cloud_, "--out", scratch_ / "m.txt"}, "m.txt", "must end in .ply",
+                 scratch_ / "m.txt");
+  expect_refused({"cloud", sequence_, "--out", scratch_ / "c.xyz"}, "c.xyz", "must end in .ply", scratch_ / "c.xyz");
   expect_refused({"view", "map", "--cloud", cloud_, "--out", scratch_ / "x.png", "--size", "big"}, "--size", "big",
                  scratch_ / "x.png");
 }

@@ -177,7 +177,7 @@ TEST_F(ConfigFile, ValuesAreHeldToTheFlags) {
   EXPECT_THAT(fault("every = 0"), AllOf(HasSubstr("line 2"), HasSubstr("--every: must be an integer from 1")));
   EXPECT_THAT(fault("every = [1, 2]"), HasSubstr("takes one value"));
   EXPECT_THAT(fault("remove-outliers = 1"), HasSubstr("must be true or false"));
-  EXPECT_THAT(fault("config = \"other.toml\""), HasSubstr("unknown key config"));
+  EXPECT_THAT(fault("config = \"other.toml\""), HasSubstr("--config is for the command line alone"));
   EXPECT_THAT(fault("from = [\"a.ply\", \"b.ply\"]\norigin = [1, 2]"), HasSubstr("--origin"));
   EXPECT_EQ(fault("from = [\"a.ply\", \"b.ply\"]\norigin = [1, -2.5, 3]\nvoxel = 0.05"), "");
   EXPECT_THAT(fault("every = 5\nfrom = \"a.ply\""), HasSubstr("excludes"));
@@ -333,6 +333,28 @@ TEST(Outputs, AreNotWrittenOverWhatTheSameRunReadsOrWrites) {
   EXPECT_EQ(fault_of({"train", "seq", "--cloud", a, "--out", folder + "/new.ply", "--report", folder + "/r.json"}), "");
   EXPECT_EQ(fault_of({"render", "--map", a, "--poses", a, "--camera", a, "--out", folder}), "");
   std::filesystem::remove_all(folder);
+}
+
+TEST(Outputs, DoNotGoAmongTheFilesOfAnInput) {
+  const std::string folder = testing::TempDir() + "/odosplat_outputs_inside";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder + "/seq/rgb");
+  const std::string seq = folder + "/seq";
+  const std::string file = seq + "/groundtruth.txt";
+  write_text(file, "");
+  EXPECT_THAT(fault_of({"eval", "a", "--truth", seq, "--json", file}), HasSubstr("is a file in " + seq));
+  EXPECT_THAT(fault_of({"cloud", seq, "--out", seq + "/rgb/../groundtruth.txt"}), HasSubstr("is a file in " + seq));
+  EXPECT_THAT(fault_of({"track", seq, "--out", seq + "/."}), HasSubstr("is also read"));
+  EXPECT_THAT(fault_of({"convert", file, folder + "/seq/./groundtruth.txt"}), HasSubstr("is the same file as"));
+  EXPECT_EQ(fault_of({"track", seq, "--out", seq + "/run"}), "");
+  EXPECT_EQ(fault_of({"eval", "a", "--truth", seq, "--json", seq + "/new.json"}), "");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Values, AreNotEmpty) {
+  EXPECT_THAT(fault_of({"eval", "a", "--truth", "b", "--config", ""}), HasSubstr("--config: is empty"));
+  EXPECT_THAT(fault_of({"eval", "a", "--truth", "b", "--device", ""}), HasSubstr("--device: is empty"));
+  EXPECT_THAT(fault_of({"eval", "", "--truth", "b"}), HasSubstr("EST: is empty"));
 }
 
 TEST(Misspelt, CommandsAndFlagsAreNamedWithTheNearest) {

@@ -105,6 +105,40 @@ class Eval : public testing::Test {
   std::string json_ = scratch_ / "eval.json";
 };
 
+TEST_F(Eval, TakesPosesWithoutTimesForThoseOfAsManyImages) {
+  std::string rgb;
+  std::string truth;
+  std::string kitti;
+  put("seq/camera.yaml", camera_yaml);
+  for (int k = 0; k < frames; ++k) {
+    const std::string id = std::to_string(k);
+    char stamp[40];
+    std::snprintf(stamp, sizeof(stamp), "%.6f", 100.0 + k / 30.0);
+    put_image("seq/rgb/" + id + ".png", k);
+    rgb += std::string(stamp) + " rgb/" + id + ".png\n";
+    truth += tum(stamp, pose_of(k));
+    kitti += rows(pose_of(k), 3, " ");
+  }
+  put("seq/rgb.txt", rgb);
+  put("seq/groundtruth.txt", truth);
+  const RunResult run = eval(put("kitti.txt", kitti), scratch_ / "seq");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(report()["pairs"], frames);
+  EXPECT_NEAR(report()["ate_m"]["max"], 0.0, 1e-6);
+  const RunResult fewer =
+      eval(put("kitti.txt", kitti.substr(0, kitti.rfind('\n', kitti.size() - 2) + 1)), scratch_ / "seq");
+  EXPECT_EQ(fewer.status, 2);
+  EXPECT_THAT(fewer.err, HasSubstr("has no times"));
+}
+
+TEST_F(Eval, RefusesErrorsThatAreNoNumbers) {
+  const std::string truth = put("truth.txt", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
+  const RunResult run = eval(put("est.txt", "0 1e300 0 0 0 0 0 1\n1 -1e300 0 0 0 0 0 1\n"), truth);
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("so large"));
+  EXPECT_FALSE(std::filesystem::exists(json_));
+}
+
 TEST_F(Eval, TakesASequenceInEveryLayout) {
   std::string images = "";
   std::string rgb;

@@ -115,6 +115,29 @@ TEST_F(LostWork, ADamagedImageAmongManyIsLeftOutOfACloud) {
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "cloud.ply"));
 }
 
+TEST_F(LostWork, ADamagedOrMissingImageAmongManyIsLeftOutOfTraining) {
+  const std::string cloud = scratch_ / "cloud.ply";
+  ASSERT_EQ(run_odosplat({"cloud", sequence_, "--every", "5", "--voxel", "0.05", "--out", cloud}).status, 0);
+  cut(image("rgb", 10));
+  cut(image("depth", 20));
+  std::filesystem::remove(image("rgb", 15));
+  const std::vector<std::string> words{"train", sequence_,      "--every", "5",     "--cloud",
+                                       cloud,   "--iterations", "20",      "--out", scratch_ / "map.ply"};
+  const RunResult run = run_odosplat(words);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("2 of 6 images cannot be read, such as " + image("rgb", 10)));
+  EXPECT_THAT(run.err, HasSubstr("1 of 30 listed images are missing, such as " + image("rgb", 15)));
+  EXPECT_THAT(run.err, HasSubstr(image("depth", 20)));
+}
+
+TEST_F(LostWork, AMissingImageIsALostFrame) {
+  std::filesystem::remove(image("rgb", 15));
+  const RunResult run = run_odosplat(track());
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(status().size(), frames + 1U);
+  EXPECT_THAT(run.err, HasSubstr("1 of 30 frames cannot be read"));
+}
+
 /// The images again with half a minute between them, from the second on.
 void slow_down(const std::string& sequence, int frames) {
   std::string list;

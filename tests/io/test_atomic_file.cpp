@@ -81,7 +81,7 @@ TEST(AtomicFile, ReportsAFolderThatTakesNoFiles) {
   if (!std::filesystem::is_directory("/proc")) GTEST_SKIP() << "no /proc";
   EXPECT_THAT(error_of([] { write_file_atomically("/proc/odosplat/x", "x"); }),
               HasSubstr("/proc/odosplat/x: cannot be written"));
-  EXPECT_THAT(error_of([] { ensure_output_folder("/proc"); }), HasSubstr("/proc: cannot be written"));
+  EXPECT_THAT(error_of([] { ensure_output_folder("/proc").keep(); }), HasSubstr("/proc: cannot be written"));
 }
 
 unsigned mode_of(const std::string& path) {
@@ -154,7 +154,7 @@ TEST(AtomicFile, RefusesTheLinkOfAStranger) {
   std::filesystem::create_symlink(temp / "private", temp / "out");
   ASSERT_EQ(lchown((temp / "out").c_str(), 65534, 65534), 0);
   EXPECT_THAT(error_of([&] { write_file_atomically(temp / "out", "new"); }), HasSubstr("belongs to another user"));
-  EXPECT_THAT(error_of([&] { ensure_output_file(temp / "out"); }), HasSubstr("belongs to another user"));
+  EXPECT_THAT(error_of([&] { ensure_output_file(temp / "out").keep(); }), HasSubstr("belongs to another user"));
   EXPECT_EQ(read_file(temp / "private"), "private");
 }
 
@@ -163,7 +163,7 @@ TEST(AtomicFile, RefusesWhatIsNoRegularFile) {
   ASSERT_EQ(mkfifo((temp / "pipe").c_str(), 0600), 0);
   for (const std::string& path : {temp / "pipe", std::string("/dev/null")}) {
     EXPECT_THAT(error_of([&] { write_file_atomically(path, "x"); }), HasSubstr("is not a regular file"));
-    EXPECT_THAT(error_of([&] { ensure_output_file(path); }), HasSubstr("is not a regular file"));
+    EXPECT_THAT(error_of([&] { ensure_output_file(path).keep(); }), HasSubstr("is not a regular file"));
   }
   EXPECT_TRUE(std::filesystem::is_fifo(temp / "pipe"));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
@@ -192,7 +192,7 @@ TEST(AtomicFile, NoticesThatItsTemporaryWasReplaced) {
 TEST(AtomicFile, TakesTheLongestNames) {
   const TempFolder temp;
   const std::string longest = temp / std::string(255, 'n');
-  ensure_output_file(longest);
+  ensure_output_file(longest).keep();
   write_file_atomically(longest, "x");
   EXPECT_EQ(read_file(longest), "x");
 }
@@ -208,18 +208,18 @@ TEST_F(Leftovers, OfAnOutputGoWhenItIsWrittenAgain) {
   temp_.put("map.ply.checkpoint.odosplat-0123456789abcdef.part", "half");
   temp_.put("clip.avi.odosplat-0123456789abcdef.part.avi", "half");
   temp_.put("other" + name_, "half");
-  ensure_output_file(temp_ / "map.ply");
-  ensure_output_file(temp_ / "clip.avi");
+  ensure_output_file(temp_ / "map.ply").keep();
+  ensure_output_file(temp_ / "clip.avi").keep();
   EXPECT_THAT(temp_.files(), ElementsAre("other" + name_));
-  ensure_output_folder(temp_.path());
+  ensure_output_folder(temp_.path()).keep();
   EXPECT_THAT(temp_.files(), IsEmpty());
 }
 
 TEST_F(Leftovers, StayWhileTheirProcessWorks) {
   AtomicFile file(temp_ / "map.ply");
   file.write("half");
-  ensure_output_file(temp_ / "map.ply");
-  ensure_output_folder(temp_.path());
+  ensure_output_file(temp_ / "map.ply").keep();
+  ensure_output_folder(temp_.path()).keep();
   file.write(" and half");
   file.commit();
   EXPECT_EQ(read_file(temp_ / "map.ply"), "half and half");
@@ -233,8 +233,8 @@ TEST_F(Leftovers, AreNothingElse) {
   std::filesystem::create_directories(temp_ / name_);
   const std::string linked = "map.ply.odosplat-00000000000000ff.part";
   std::filesystem::create_symlink(temp_ / names[0], temp_ / linked);
-  ensure_output_file(temp_ / "map.ply");
-  ensure_output_folder(temp_.path());
+  ensure_output_file(temp_ / "map.ply").keep();
+  ensure_output_folder(temp_.path()).keep();
   EXPECT_EQ(temp_.files().size(), names.size() + 1);  // and the link to one
   EXPECT_TRUE(std::filesystem::is_directory(temp_ / name_));
   EXPECT_TRUE(std::filesystem::is_symlink(temp_ / linked));
@@ -243,26 +243,50 @@ TEST_F(Leftovers, AreNothingElse) {
 TEST_F(Leftovers, OfAnotherUserStay) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can give files away";
   ASSERT_EQ(chown(temp_.put(name_, "half").c_str(), 65534, 65534), 0);
-  ensure_output_file(temp_ / "map.ply");
+  ensure_output_file(temp_ / "map.ply").keep();
   EXPECT_THAT(temp_.files(), ElementsAre(name_));
 }
 
 TEST(OutputFolder, IsMadeAndProvedWritable) {
   const TempFolder temp;
-  ensure_output_folder(temp / "a/b");
+  ensure_output_folder(temp / "a/b").keep();
   EXPECT_TRUE(std::filesystem::is_directory(temp / "a/b"));
-  ensure_output_file(temp / "c/d.txt");
+  ensure_output_file(temp / "c/d.txt").keep();
   EXPECT_TRUE(std::filesystem::is_directory(temp / "c"));
   EXPECT_THAT(temp.files(), IsEmpty());
+}
+
+TEST(OutputFolder, GoesWithItsNewParentsWhenNothingWasWritten) {
+  const TempFolder temp;
+  std::filesystem::create_directories(temp / "old");
+  {
+    const MadeFolders folder = ensure_output_folder(temp / "old/a/b/");
+    const MadeFolders file = ensure_output_file(temp / "c/d/e.txt");
+    EXPECT_TRUE(std::filesystem::is_directory(temp / "old/a/b"));
+    EXPECT_TRUE(std::filesystem::is_directory(temp / "c/d"));
+  }
+  EXPECT_TRUE(std::filesystem::is_directory(temp / "old"));
+  EXPECT_FALSE(std::filesystem::exists(temp / "old/a"));
+  EXPECT_FALSE(std::filesystem::exists(temp / "c"));
+  {
+    const MadeFolders folder = ensure_output_folder(temp / "old");
+    const MadeFolders file = ensure_output_file(temp / "c/d/e.txt");
+    write_file_atomically(temp / "c/d/e.txt", "text");
+  }
+  EXPECT_TRUE(std::filesystem::is_directory(temp / "old"));
+  EXPECT_EQ(read_file(temp / "c/d/e.txt"), "text");
+  { const AtomicFile never_committed(temp / "f/g.txt"); }
+  EXPECT_FALSE(std::filesystem::exists(temp / "f"));
 }
 
 TEST(OutputFolder, RefusesAFileInItsPlace) {
   const TempFolder temp;
   const std::string file = temp.put("file", "");
-  EXPECT_THAT(error_of([&] { ensure_output_folder(file); }), HasSubstr(file + ": cannot be written"));
-  EXPECT_THAT(error_of([&] { ensure_output_folder(file + "/x"); }), HasSubstr(file + "/x: cannot be written"));
-  EXPECT_THAT(error_of([&] { ensure_output_file(file + "/x.png"); }), HasSubstr(file + "/x.png: cannot be written"));
-  EXPECT_THAT(error_of([&] { ensure_output_file(temp.path()); }), HasSubstr("is a folder"));
+  EXPECT_THAT(error_of([&] { ensure_output_folder(file).keep(); }), HasSubstr(file + ": cannot be written"));
+  EXPECT_THAT(error_of([&] { ensure_output_folder(file + "/x").keep(); }), HasSubstr(file + "/x: cannot be written"));
+  EXPECT_THAT(error_of([&] { ensure_output_file(file + "/x.png").keep(); }),
+              HasSubstr(file + "/x.png: cannot be written"));
+  EXPECT_THAT(error_of([&] { ensure_output_file(temp.path()).keep(); }), HasSubstr("is a folder"));
 }
 
 TEST(ReadFile, NamesWhatItCannotRead) {

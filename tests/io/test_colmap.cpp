@@ -298,7 +298,7 @@ TEST(SequenceColmap, SaysWhatIsMissing) {
   EXPECT_FALSE(s.has_sparse_points());
   EXPECT_THAT(error_of([&] { s.sparse_points(); }), HasSubstr("has no sparse points"));
   fs::remove(temp / "f2.png");
-  EXPECT_THAT(error_of([&] { Sequence::open(temp.path()); }), HasSubstr("f2.png: is missing"));
+  EXPECT_THAT(error_of([&] { Sequence::open(temp.path()).color(1); }), HasSubstr("f2.png: is missing"));
   SequenceOptions options;
   options.layout = "colmap";
   fs::remove(temp / "cameras.bin");

@@ -227,7 +227,7 @@ TEST(SequenceTum, FaultsNameTheFile) {
   const auto depth = temp / "depth/10.100.png";
 
   fs::rename(color, temp / "away");
-  EXPECT_EQ(open_error(), color + ": is missing");
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()).color(1); }), color + ": is missing");
   const std::string bytes = read_file(temp / "away");
   temp.put("rgb/10.100.png", bytes.substr(0, bytes.size() / 2));
   EXPECT_EQ(error_of([&] { Sequence::open(temp.path()).color(1); }), color + ": is truncated");

@@ -270,7 +270,9 @@ TEST(SequenceNerfstudio, SaysWhatIsMissing) {
   const TempFolder temp;
   put(temp, tiny());
   std::filesystem::remove(temp / "images/8.png");
-  EXPECT_THAT(error_of([&] { Sequence::open(temp.path()); }), HasSubstr("images/8.png: is missing"));
+  EXPECT_THAT(error_of([&] { Sequence::open(temp.path()).color(1); }), HasSubstr("images/8.png: is missing"));
+  for (const char* name : {"images/7.png", "images/9.png"}) std::filesystem::remove(temp / name);
+  EXPECT_THAT(error_of([&] { Sequence::open(temp.path()); }), HasSubstr("images/7.png: is missing"));
   SequenceOptions options;
   options.layout = "nerfstudio";
   EXPECT_THAT(error_of([&] { Sequence::open(temp / "images", options); }), HasSubstr("transforms.json: is missing"));
