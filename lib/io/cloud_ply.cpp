@@ -104,7 +104,9 @@ class PlySource : public CloudSource {
       }
       return body_.left_over();
     } catch (const InputError& error) {
-      return "behind its points the file is damaged (" + std::string(error.what()) + ")";
+      std::string fault = error.what();
+      if (const std::string file = input_.name + ": "; fault.starts_with(file)) fault.erase(0, file.size());
+      return "behind its points the file is damaged (" + fault + ")";
     }
   }
 

@@ -166,9 +166,9 @@ TEST(CloudPcd, FaultsAreNamed) {
 }
 
 TEST(CloudPcd, PromisesAreNotTrusted) {
-  const auto promising = [](std::string bytes, const std::string& points) {
-    bytes.replace(bytes.find("POINTS 3") + 7, 1, points);
-    return bytes.replace(bytes.find("WIDTH 3") + 6, 1, points);
+  const auto promising = [](std::string bytes, const std::string& promised) {
+    bytes.replace(bytes.find("POINTS 3") + 7, 1, promised);
+    return bytes.replace(bytes.find("WIDTH 3") + 6, 1, promised);
   };
   EXPECT_EQ(fault("c.pcd", promising(binary_pcd(), "99999999999999")),
             "c.pcd: the header promises 99999999999999 points, the file holds 3");
