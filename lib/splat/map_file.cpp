@@ -226,8 +226,10 @@ Gaussians parse_map(const std::string& name, const std::string& bytes) {
 
 std::vector<std::string> read_map_notes(const std::string& path) {
   std::vector<std::string> notes = header_notes(path);
-  std::erase_if(notes, [](const std::string& note) {
-    return std::find(format_notes.begin(), format_notes.end(), note) != format_notes.end();
+  const bool is_ours = std::find(notes.begin(), notes.end(), format_notes.front()) != notes.end();
+  std::erase_if(notes, [is_ours](const std::string& note) {
+    return std::find(format_notes.begin(), format_notes.end(), note) != format_notes.end() ||
+           (!is_ours && names_map_setting(note));
   });
   return notes;
 }

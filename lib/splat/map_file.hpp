@@ -41,7 +41,8 @@ bool is_splat_path(const std::string& path);
 /// if it cannot be read; InputError for a PLY whose header is broken.
 bool is_map_file(const std::string& path);
 
-/// The lines of `notes` that write_map was given, or the comments of another program's PLY; none of other formats.
+/// The lines of `notes` that write_map was given, or the comments of another program's PLY, without those that begin
+/// with the name of a setting of ours; none of other formats.
 std::vector<std::string> read_map_notes(const std::string& path);
 
 /// The functions below read the header's comments, and throw InputError naming the file and the field for what

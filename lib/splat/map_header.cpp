@@ -142,6 +142,13 @@ void check_map_header(const std::vector<std::string>& comments) {
   }
 }
 
+bool names_map_setting(const std::string& comment) {
+  std::string_view rest = comment;
+  const std::string_view name = take_word(rest);
+  return std::any_of(fields.begin(), fields.end(),
+                     [name](const Field& known) { return known.name == name && !known.read_back; });
+}
+
 std::optional<double> map_header_number(const std::vector<std::string>& comments, std::string_view field) {
   for (const std::string& comment : comments) {
     std::string_view rest = comment;

@@ -16,6 +16,10 @@ namespace odosplat {
 /// since another program's comment may begin with the same word.
 void check_map_header(const std::vector<std::string>& comments);
 
+/// Whether a comment begins with the name of a setting that nothing reads back: in a file of another program it may
+/// mean anything.
+bool names_map_setting(const std::string& comment);
+
 /// The number of a field; none where no line names it, or its value is none.
 std::optional<double> map_header_number(const std::vector<std::string>& comments, std::string_view field);
 

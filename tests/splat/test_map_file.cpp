@@ -331,6 +331,8 @@ TEST_F(MapFile, FieldsOfTheHeaderAreChecked) {
   EXPECT_EQ(header_fault({"seed 0.5"}), ": header: seed: must be a whole number of at least 0, is `0.5`");
   // Other programs' comments may begin with the same words, and say what they like.
   EXPECT_EQ(header_fault({"iterations were many", "iterations 3"}, false), "");
+  EXPECT_EQ(header_fault({"iterations were many", "made by hand"}, false), "");
+  EXPECT_EQ(read_map_notes(path("m.ply")), (std::vector<std::string>{"made by hand"}));
   EXPECT_EQ(header_fault({"blend_order depth", "blend_order depth"}, false), ": header: blend_order: comes twice");
 }
 
