@@ -13,6 +13,8 @@
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/near_origin.hpp"
 #include "odosplat/core/stamp_guess.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/camera_check.hpp"
 #include "odosplat/io/image_file.hpp"
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/photometric.hpp"
@@ -160,7 +162,7 @@ struct Sequence::Data {
     bool any_depth = false;
     bool wants_depth = false;
     for (const FrameFiles& f : index.frames) {
-      if (!index.video && !file_exists(f.color)) throw InputError(f.color, "is missing");
+      if (!index.video) require_regular_file(f.color);
       wants_depth = wants_depth || !f.depth.empty();
       any_depth = any_depth || (!f.depth.empty() && file_exists(f.depth));
     }
@@ -182,6 +184,7 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
   data->max_image_pixels = options.max_image_pixels;
   data->index = layout.index(path, options);
   SequenceIndex& index = data->index;
+  check_camera(index.camera_source, index.camera);
   data->require_files();
   data->reflected = index.camera.fy_sign < 0 && !options.as_stored;
   if (data->reflected) {
