@@ -32,8 +32,13 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence, const FrameRange& 
     }
     if (std::string more; text >> more) throw InputError("--start", "has more than seven numbers: " + job.start);
     const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-    if (!(q.norm() > 1e-6)) throw InputError("--start", "the quaternion has length zero");
-    return {q, Eigen::Vector3d(v[0], v[1], v[2])};
+    try {
+      const SE3 start(rotation_from_text(q), Eigen::Vector3d(v[0], v[1], v[2]));
+      if (!start.is_finite()) throw InputError("the position is not finite");
+      return start;
+    } catch (const InputError& e) {
+      throw InputError("--start", e.what());
+    }
   }
   for (std::size_t i = range.begin; i < range.end; ++i) {
     if (!sequence.T_world_camera(i)) continue;

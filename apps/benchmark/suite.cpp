@@ -99,7 +99,9 @@ void expect_unique(const Table& table, const std::vector<Named>& before, const s
 Suite parse(const std::string& file, const std::string& text) {
   YAML::Node root;
   try {
-    root = YAML::Load(text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) throw InputError(file, "holds several YAML documents (`---`), must hold one");
+    if (!documents.empty()) root.reset(documents.front());
   } catch (const YAML::Exception& e) {
     throw InputError(file + ":" + std::to_string(e.mark.line + 1), e.msg);
   }

@@ -2,7 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/core/camera.hpp"
 
-#include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "odosplat/core/error.hpp"
@@ -14,8 +14,28 @@ void require_size(const char* name, int size) {
   if (size < 1 || size > 32768) throw InputError(name, "must be in 1..32768, is " + std::to_string(size));
 }
 
-void require_focal(const char* name, double f) {
-  if (!(f > 0.0) || !std::isfinite(f)) throw InputError(name, "must be positive, is " + std::to_string(f));
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
+// A thousandth of the image: 179.9 degrees from border to border. 1e6 pixels: images of 32768 see 2 degrees.
+constexpr double least_focal_share = 1e-3;
+constexpr double most_focal = 1e6;
+
+void require_focal(const char* name, double f, int size) {
+  if (!(f > 0.0)) throw InputError(name, "must be positive, is " + number(f));
+  const double least = least_focal_share * size;
+  if (f >= least && f <= most_focal) return;
+  throw InputError(name, "must be in " + number(least) + ".." + number(most_focal) + " for an image of " +
+                             std::to_string(size) + " px, is " + number(f));
+}
+
+// As far from the image as one that is cut out of the largest has its centre.
+void require_center(const char* name, double c, int size) {
+  if (c >= -32768.0 && c <= size + 32768.0) return;
+  throw InputError(name, "must be within 32768 px of the image, is " + number(c));
 }
 
 }  // namespace
@@ -23,10 +43,10 @@ void require_focal(const char* name, double f) {
 void Camera::check() const {
   require_size("width", width);
   require_size("height", height);
-  require_focal("fx", fx);
-  require_focal("fy", fy);
-  if (!std::isfinite(cx)) throw InputError("cx", "is not a number");
-  if (!std::isfinite(cy)) throw InputError("cy", "is not a number");
+  require_focal("fx", fx, width);
+  require_focal("fy", fy, height);
+  require_center("cx", cx, width);
+  require_center("cy", cy, height);
 }
 
 Eigen::Matrix3d Camera::matrix() const {

@@ -16,7 +16,8 @@ struct Camera {
   double cx = 0.0;  // [px]
   double cy = 0.0;  // [px]
 
-  /// Throws InputError naming the field: sizes in 1..32768, focal lengths positive, all finite.
+  /// Throws InputError naming the field: sizes in 1..32768, focal lengths from a thousandth of the image to 1e6 px, the
+  /// principal point within 32768 px of the image.
   void check() const;
 
   /// p_camera [m] with z > 0 to pixel.

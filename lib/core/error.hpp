@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -12,10 +13,19 @@ namespace odosplat {
 /// Every other exception is an internal failure (exit 1).
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& message) : std::runtime_error(message) {}
-  InputError(const std::string& file, const std::string& fault) : std::runtime_error(file + ": " + fault) {}
+  explicit InputError(const std::string& message) : std::runtime_error(without_zeros(message)) {}
+  InputError(const std::string& file, const std::string& fault) : InputError(file + ": " + fault) {}
   InputError(const std::string& file, const std::string& place, const std::string& fault)
-      : std::runtime_error(file + ": " + place + ": " + fault) {}
+      : InputError(file + ": " + place + ": " + fault) {}
+
+ private:
+  // what() ends at the first zero byte, which a damaged text may hold: as terminal_text.hpp escapes it.
+  static std::string without_zeros(std::string text) {
+    for (std::size_t at = text.find('\0'); at != std::string::npos; at = text.find('\0', at)) {
+      text.replace(at, 1, "\\x00");
+    }
+    return text;
+  }
 };
 
 /// The user asked to stop (Ctrl-C); programs exit with 130.

@@ -3,6 +3,9 @@
 #include "odosplat/core/se3.hpp"
 
 #include <cmath>
+#include <cstdio>
+
+#include "odosplat/core/error.hpp"
 
 namespace odosplat {
 namespace {
@@ -23,6 +26,17 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d M;
   M << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
   return M;
+}
+
+Eigen::Quaterniond rotation_from_text(const Eigen::Quaterniond& q) {
+  // Eigen's norm squares: values beyond 1e150 would overflow it.
+  const double length = q.coeffs().stableNorm();
+  if (!(length >= 0.5 && length <= 2.0)) {
+    char fault[80];
+    std::snprintf(fault, sizeof(fault), "the quaternion has length %.3g, must be near 1 (0.5..2)", length);
+    throw InputError(fault);
+  }
+  return q.normalized();
 }
 
 Eigen::Quaterniond so3_exp(const Eigen::Vector3d& omega) {

@@ -17,6 +17,11 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v);
 Eigen::Quaterniond so3_exp(const Eigen::Vector3d& omega);
 Eigen::Vector3d so3_log(const Eigen::Quaterniond& q);
 
+/// The rotation that a file or a person writes as four numbers: q at unit length. The one rule for all of them: the
+/// length must be in 0.5..2, since rounding does not take it farther from 1, and other numbers in the quaternion's
+/// columns do. InputError("the quaternion has length 3, must be near 1 (0.5..2)") otherwise, and if it is not finite.
+Eigen::Quaterniond rotation_from_text(const Eigen::Quaterniond& q);
+
 /// A rigid motion. Names carry both frames: p_world = T_world_camera * p_camera; T_a_c = T_a_b * T_b_c.
 /// Twists are (translation rho, rotation omega) [m, rad]. Perturbations of a pose are on the LEFT everywhere in this
 /// project: T <- exp(xi) * T. The quaternion is kept at unit length.

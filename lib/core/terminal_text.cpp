@@ -66,6 +66,48 @@ std::string printable(std::string_view text, bool keep_lines) {
   return out;
 }
 
+constexpr std::string_view left_out = "...";
+constexpr std::size_t longest_quote = 100;  // [bytes]
+// Two paths of the longest kind (4096) do not fit, and one does.
+constexpr std::size_t line_start = 6000;
+constexpr std::size_t line_end = 2000;
+
+/// The start of a text, of at most so many bytes, that does not end within a character.
+std::string_view cut_to_bytes(std::string_view text, std::size_t bytes) {
+  if (text.size() <= bytes) return text;
+  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) --bytes;
+  return text.substr(0, bytes);
+}
+
+/// What files say is quoted, and may be as long as they are.
+std::string with_short_quotes(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t open = text.find_first_of("\"`");
+    const std::size_t close = open == std::string_view::npos ? open : text.find(text[open], open + 1);
+    if (close == std::string_view::npos) break;
+    out += text.substr(0, open + 1);
+    const std::string_view quoted = text.substr(open + 1, close - open - 1);
+    if (quoted.size() > longest_quote) {
+      out += cut_to_bytes(quoted, longest_quote - left_out.size());
+      out += left_out;
+    } else {
+      out += quoted;
+    }
+    out += text[close];
+    text.remove_prefix(close + 1);
+  }
+  out += text;
+  return out;
+}
+
+std::string without_middle(const std::string& text) {
+  if (text.size() <= line_start + line_end) return text;
+  std::size_t end = text.size() - line_end;
+  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) ++end;
+  return std::string(cut_to_bytes(text, line_start)).append(left_out).append(text, end, std::string::npos);
+}
+
 int columns_of(std::uint32_t code) {
   const bool combining = between(code, 0x300, 0x36F) || between(code, 0x200B, 0x200D) ||
                          between(code, 0x20D0, 0x20FF) || between(code, 0xFE00, 0xFE0F) ||
@@ -91,7 +133,10 @@ std::size_t bytes_within(std::string_view text, int columns) {
 
 }  // namespace
 
-std::string printable_line(std::string_view text) { return printable(text, false); }
+std::string printable_line(std::string_view text) {
+  const std::string brief = without_middle(with_short_quotes(text));
+  return printable(brief, false);
+}
 std::string printable_text(std::string_view text) { return printable(text, true); }
 
 int text_columns(std::string_view text) {

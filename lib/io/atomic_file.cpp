@@ -21,7 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // A FIFO would hang, a device would never end.
-constexpr const char* not_regular = "is not a regular file";
+std::string not_regular(mode_t mode) {
+  const char* kind = S_ISDIR(mode)                    ? "a folder"
+                     : S_ISFIFO(mode)                 ? "a pipe (FIFO)"
+                     : S_ISSOCK(mode)                 ? "a socket"
+                     : S_ISCHR(mode) || S_ISBLK(mode) ? "a device"
+                                                      : "something else";
+  return std::string("is not a regular file but ") + kind;
+}
 
 std::string cannot_write(const std::string& reason) { return "cannot be written: " + reason; }
 
@@ -73,7 +80,7 @@ std::string resolved(const std::string& path) {
 bool find_replaced(const std::string& path, const std::string& target, struct stat& status) {
   if (::lstat(target.c_str(), &status) != 0) return false;
   if (S_ISDIR(status.st_mode)) throw InputError(path, cannot_write("is a folder"));
-  if (!S_ISREG(status.st_mode)) throw InputError(path, cannot_write("is not a regular file"));
+  if (!S_ISREG(status.st_mode)) throw InputError(path, cannot_write(not_regular(status.st_mode)));
   return true;
 }
 
@@ -188,7 +195,7 @@ std::string read_file(const std::string& path, std::uint64_t max_bytes) {
   const bool known = ::fstat(file, &status) == 0;
   if (!known || !S_ISREG(status.st_mode)) {
     ::close(file);
-    throw InputError(path, not_regular);
+    throw InputError(path, known ? not_regular(status.st_mode) : "cannot be read");
   }
   const auto refuse_above = [&](std::uint64_t bytes) {
     if (bytes <= max_bytes) return;
@@ -221,7 +228,7 @@ void require_regular_file(const std::string& path) {
   if (::stat(path.c_str(), &status) != 0) {
     throw InputError(path, errno == ENOENT ? "is missing" : std::strerror(errno));
   }
-  if (!S_ISREG(status.st_mode)) throw InputError(path, not_regular);
+  if (!S_ISREG(status.st_mode)) throw InputError(path, not_regular(status.st_mode));
 }
 
 }  // namespace odosplat

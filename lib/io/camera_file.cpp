@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <set>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/camera_check.hpp"
+#include "odosplat/io/layouts.hpp"
 
 namespace odosplat {
 namespace {
@@ -30,7 +33,12 @@ class Reader {
   Reader(std::string name, const std::string& text) : name_(std::move(name)) {
     if (text.size() > max_size) throw InputError(name_, "is too long for a camera file");
     try {
-      root_ = YAML::Load(text);
+      // Load() would take the first of several documents, and say nothing of the others.
+      const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+      if (documents.size() > 1) {
+        fail("content", "holds " + std::to_string(documents.size()) + " YAML documents (`---`), must hold one");
+      }
+      if (!documents.empty()) root_ = documents.front();
     } catch (const YAML::Exception& e) {
       fail("line " + std::to_string(e.mark.line + 1), shown(e.msg));
     }
@@ -133,11 +141,6 @@ CameraFile parse_camera_file(const std::string& name, const std::string& text) {
     file.fy_sign = -1;
     c.fy = -c.fy;
   }
-  try {
-    c.check();
-  } catch (const InputError& e) {
-    throw InputError(name, e.what());
-  }
   if (reader.has("depth_scale")) {
     file.depth_scale = reader.number("depth_scale");
     file.has_depth_scale = true;
@@ -159,10 +162,22 @@ CameraFile parse_camera_file(const std::string& name, const std::string& text) {
   if (reader.has("vignette")) file.vignette = reader.text("vignette");
   reader.refuse_unknown(
       {"width", "height", "fx", "fy", "cx", "cy", "depth_scale", "distortion", "fps", "gamma", "vignette"});
+  check_camera(name, file);
   return file;
 }
 
-CameraFile read_camera_file(const std::string& path) { return parse_camera_file(path, read_file(path, max_size)); }
+CameraFile read_camera_file(const std::string& path) {
+  CameraFile file = parse_camera_file(path, read_file(path, max_size));
+  if (!file.vignette.empty()) {
+    const std::string vignette = listed_file(std::filesystem::path(path).parent_path().string(), file.vignette);
+    try {
+      require_regular_file(vignette);
+    } catch (const InputError& e) {
+      throw InputError(path, "vignette", e.what());
+    }
+  }
+  return file;
+}
 
 void write_camera_file(const std::string& path, const CameraFile& file) {
   std::string text;

@@ -22,8 +22,9 @@ struct CameraFile {
   std::string vignette;            // image file, relative to the camera file (read_vignette); empty: none
 };
 
-/// Throws InputError(file, key, fault): a key missing, unknown or given twice, not a number, not finite, sizes or focal
-/// lengths out of range, fx <= 0, fy = 0, depth_scale <= 0, another number of distortion coefficients than 4 or 5.
+/// Throws InputError(file, key, fault): a key missing, unknown or given twice, not a number, not finite, several
+/// YAML documents, another number of distortion coefficients than 4 or 5, and what check_camera refuses; reading from a
+/// path: a vignette that is not there.
 CameraFile read_camera_file(const std::string& path);
 /// The same from text; `name` stands for the file in errors.
 CameraFile parse_camera_file(const std::string& name, const std::string& text);

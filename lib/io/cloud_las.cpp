@@ -53,7 +53,18 @@ class LasSource : public CloudSource {
       if (!std::isfinite(scale_[axis]) || scale_[axis] == 0.0) fail("a scale is zero or not finite");
       if (!std::isfinite(offset_[axis])) fail("an offset is not finite");
     }
-    seek_points(load_little<std::uint32_t>(h + 96), load_little<std::uint16_t>(h + 94));
+    const auto header_size = load_little<std::uint16_t>(h + 94);
+    // What may stand behind the points: waveforms since 1.3, long records since 1.4.
+    end_ = input_.size;
+    for (const std::size_t at : {std::size_t{227}, std::size_t{235}}) {
+      if (minor < (at == 227 ? 3 : 4) || header_size < at + 8) continue;
+      if (const auto start = load_little<std::uint64_t>(h + at); start > 0) end_ = std::min(end_, start);
+    }
+    seek_points(load_little<std::uint32_t>(h + 96), header_size);
+    const std::uint64_t legacy = load_little<std::uint32_t>(h + 107);
+    if (minor == 4 && legacy > 0 && legacy != promised_) {
+      fail("its two counts of points are " + std::to_string(legacy) + " and " + std::to_string(promised_));
+    }
   }
 
   bool next(CloudRows& rows) override {
@@ -73,6 +84,12 @@ class LasSource : public CloudSource {
                                load_little<std::uint16_t>(color + 4));
     }
     return true;
+  }
+
+  std::string left_over() override {
+    if (more_ == 0) return {};
+    return "the header promises " + std::to_string(promised_) + " points, the file goes on for " +
+           std::to_string(more_) + " more, which are not read";
   }
 
   std::optional<ColorRange> color_range() const override {
@@ -100,6 +117,8 @@ class LasSource : public CloudSource {
                                         std::to_string(held));
     }
     input_.in->seekg(static_cast<std::streamoff>(start));
+    promised_ = left_;
+    more_ = end_ > start + left_ * length_ ? (end_ - start) / length_ - left_ : 0;
   }
 
   double coordinate(const char* record, std::size_t axis) const {
@@ -114,6 +133,9 @@ class LasSource : public CloudSource {
   bool is_extended_ = false;
   std::size_t length_ = 0;  // of a record [bytes]
   std::uint64_t left_ = 0;
+  std::uint64_t promised_ = 0;
+  std::uint64_t more_ = 0;  // records that would fit behind those
+  std::uint64_t end_ = 0;   // of what may be points [bytes]
   std::array<double, 3> scale_{};
   std::array<double, 3> offset_{};
   std::vector<char> block_;

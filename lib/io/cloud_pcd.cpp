@@ -96,6 +96,22 @@ class PcdSource : public CloudSource {
 
   std::optional<ColorRange> color_range() const override { return range_; }
 
+  std::string left_over() override {
+    std::string more;
+    if (header_.data == PcdData::ascii) {
+      std::uint64_t lines = 0;
+      for (; lines_.next(line_); lines += words_.empty() ? 0 : 1) split_words(line_, ' ', words_);
+      if (lines > 0) more = std::to_string(lines) + " lines";
+    } else {
+      const std::uint64_t points =
+          header_.data == PcdData::binary ? bytes_left() / header_.stride : whole_ / header_.stride - header_.points;
+      if (points > 0) more = std::to_string(points) + " more";
+    }
+    if (more.empty()) return {};
+    return "the header promises " + std::to_string(header_.points) + " points, the file goes on for " + more +
+           ", which are not read";
+  }
+
  private:
   // Values of one point, of the wanted fields in their order; a packed colour as its bits.
   using Values = std::array<double, 9>;
@@ -199,6 +215,7 @@ class PcdSource : public CloudSource {
                                         " compressed bytes, the file holds " + std::to_string(bytes_left()));
     }
     if (whole / header_.stride < header_.points) too_short(whole / header_.stride);
+    whole_ = whole;
     const auto begin = static_cast<std::uint64_t>(input_.in->tellg());
     LzfStream stream(input_.name, *input_.in, begin, begin + packed);
     streams_.assign(fields_.size(), stream);
@@ -232,6 +249,7 @@ class PcdSource : public CloudSource {
   bool has_normals_ = false;
   std::optional<ColorRange> range_;
   std::uint64_t left_ = 0;
+  std::uint64_t whole_ = 0;  // compressed: bytes that the points take when they are unpacked
   std::string line_;
   std::vector<std::string_view> words_;
   std::vector<char> block_;

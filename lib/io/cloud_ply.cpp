@@ -53,9 +53,9 @@ class PlySource : public CloudSource {
       : input_(std::move(input)),
         header_(read_ply_header(input_.name, *input_.in)),
         body_(input_.name, *input_.in, header_, input_.size - static_cast<std::uint64_t>(input_.in->tellg())) {
-    const auto vertex = std::find_if(header_.elements.begin(), header_.elements.end(),
+    const auto vertex = std::find_if(header_.elements.cbegin(), header_.elements.cend(),
                                      [](const PlyHeaderElement& e) { return same_word(e.name, "vertex"); });
-    if (vertex == header_.elements.end()) throw InputError(input_.name, "has no element vertex");
+    if (vertex == header_.elements.cend()) throw InputError(input_.name, "has no element vertex");
     const std::vector<std::string> names = scalar_names(*vertex);
     refuse_packed_ply(input_.name, names);
     columns_ = find_cloud_columns(names);
@@ -74,11 +74,12 @@ class PlySource : public CloudSource {
         range_->high = std::max(range_->high, range.high);
       }
     }
-    for (auto element = header_.elements.begin(); element != vertex; ++element) {
+    for (auto element = header_.elements.cbegin(); element != vertex; ++element) {
       body_.begin(*element);
       while (body_.next(batch_rows).count > 0) continue;
     }
     body_.begin(*vertex);
+    behind_ = vertex + 1;
   }
 
   bool next(CloudRows& rows) override {
@@ -94,10 +95,26 @@ class PlySource : public CloudSource {
   std::optional<ColorRange> color_range() const override { return range_; }
   const char* row_word() const override { return "vertex"; }
 
+  // The points are whole; elements behind them (faces) tell whether the file is.
+  std::string left_over() override {
+    try {
+      for (auto element = behind_; element != header_.elements.end(); ++element) {
+        body_.begin(*element);
+        while (body_.next(batch_rows).count > 0) continue;
+      }
+      return body_.left_over();
+    } catch (const InputError& error) {
+      std::string fault = error.what();
+      if (const std::string file = input_.name + ": "; fault.starts_with(file)) fault.erase(0, file.size());
+      return "behind its points the file is damaged (" + fault + ")";
+    }
+  }
+
  private:
   CloudInput input_;
   PlyHeader header_;
   PlyBody body_;
+  std::vector<PlyHeaderElement>::const_iterator behind_;
   CloudColumns columns_;
   std::optional<ColorRange> range_;
 };

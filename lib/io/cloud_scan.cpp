@@ -151,6 +151,8 @@ void scan(const std::string& name, const MakeInput& make_input, const CloudSink&
     if (!batch.points.empty()) sink(batch);
   }
   cleaner.finish();
+  const std::string more = source->left_over();
+  if (!more.empty()) log_warning(name + ": " + more);
 }
 
 }  // namespace

@@ -52,6 +52,9 @@ class CloudSource {
   virtual std::optional<ColorRange> color_range() const = 0;
   /// What errors call a row.
   virtual const char* row_word() const { return "point"; }
+  /// Behind the last row: what the file holds beyond what its header promises, as "the header promises 5 points, ...";
+  /// empty if it holds no more. May read on.
+  virtual std::string left_over() { return {}; }
 };
 
 std::unique_ptr<CloudSource> open_ply_source(CloudInput input);

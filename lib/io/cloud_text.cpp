@@ -3,6 +3,7 @@
 #include <limits>
 #include <string>
 
+#include "odosplat/core/error.hpp"
 #include "odosplat/io/cloud_source.hpp"
 #include "odosplat/io/text_layout.hpp"
 #include "odosplat/io/text_rows.hpp"
@@ -31,7 +32,18 @@ class TextSource : public CloudSource {
       if (layout_.color) rows.colors.push_back(color());
       if (layout_.normal) rows.normals.push_back(triple<float>(*layout_.normal));
     }
+    held_ += rows.points.size();
+    if (rows.points.empty() && layout_.count && held_ < *layout_.count) {
+      throw InputError(input_.name, "its first line promises " + std::to_string(*layout_.count) +
+                                        " points, the file holds " + std::to_string(held_));
+    }
     return !rows.points.empty();
+  }
+
+  std::string left_over() override {
+    if (!layout_.count || held_ <= *layout_.count) return {};
+    return "its first line promises " + std::to_string(*layout_.count) + " points, the file holds " +
+           std::to_string(held_) + ", and all are read";
   }
 
   std::optional<ColorRange> color_range() const override {
@@ -66,6 +78,7 @@ class TextSource : public CloudSource {
   CloudInput input_;
   LineReader lines_;
   TextLayout layout_;
+  std::uint64_t held_ = 0;  // rows so far
   std::string line_;
   std::vector<std::string_view> words_;
 };

@@ -51,6 +51,13 @@ class Bytes {
     return std::string(from.substr(0, end));
   }
 
+  /// To be called behind the last entry: a model holds nothing else.
+  void expect_end() const {
+    if (rest_.empty()) return;
+    throw InputError(name_, "promises " + std::to_string(count_) + " entries, and goes on for " +
+                                std::to_string(rest_.size()) + " bytes behind them");
+  }
+
   /// Reads past a list: its length, then so many entries.
   void skip_list(std::uint64_t bytes_an_entry) {
     const auto n = integer<std::uint64_t>();
@@ -92,6 +99,7 @@ ColmapCameras parse_colmap_cameras_binary(const std::string& name, const std::st
       throw InputError(name, in.place(), "camera " + std::to_string(id) + " is listed twice");
     }
   }
+  in.expect_end();
   if (cameras.empty()) throw InputError(name, "lists no camera");
   return cameras;
 }
@@ -111,6 +119,7 @@ std::vector<ColmapImage> parse_colmap_images_binary(const std::string& name, con
     in.skip_list(bytes_a_pixel);
     images.push_back(colmap_image(name, in.place(), q, t, camera, std::move(image)));
   }
+  in.expect_end();
   if (images.empty()) throw InputError(name, "lists no image");
   sort_colmap_images(name, images);
   return images;
@@ -130,6 +139,7 @@ PointCloud parse_colmap_points_binary(const std::string& name, const std::string
     in.skip_list(bytes_a_track);
     add_colmap_point(name, in.place(), xyz, rgb, cloud);
   }
+  in.expect_end();
   return cloud;
 }
 

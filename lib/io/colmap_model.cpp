@@ -100,14 +100,16 @@ ColmapImage colmap_image(const std::string& name, const std::string& place, cons
                          std::uint32_t camera_id, std::string image_name) {
   if (image_name.empty()) throw InputError(name, place, "has no name");
   if (has_control_characters(image_name)) throw InputError(name, place, "its name holds control characters");
-  const Eigen::Vector4d wxyz(q[0], q[1], q[2], q[3]);
   const Eigen::Vector3d translation(t[0], t[1], t[2]);
-  if (!wxyz.allFinite() || !translation.allFinite()) return {std::move(image_name), camera_id, std::nullopt};
-  // Eigen's norm squares: values beyond 1e150 would overflow it.
-  const double length = wxyz.stableNorm();
-  if (!(length > 1e-6 && length < 1e6)) throw InputError(name, place, "its quaternion has no sensible length");
-  const Eigen::Quaterniond rotation(q[0] / length, q[1] / length, q[2] / length, q[3] / length);
-  const SE3 T_world_camera = SE3(rotation, translation).inverse();
+  const Eigen::Quaterniond written(q[0], q[1], q[2], q[3]);
+  if (!written.coeffs().allFinite() || !translation.allFinite())
+    return {std::move(image_name), camera_id, std::nullopt};
+  SE3 T_world_camera;
+  try {
+    T_world_camera = SE3(rotation_from_text(written), translation).inverse();
+  } catch (const InputError& e) {
+    throw InputError(name, place, e.what());
+  }
   if (!T_world_camera.is_finite()) throw InputError(name, place, "its pose is out of range");
   return {std::move(image_name), camera_id, T_world_camera};
 }

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "odosplat/core/error.hpp"
 #include "odosplat/io/text_words.hpp"
 
 namespace odosplat {
@@ -134,14 +135,17 @@ Trajectory parse_euroc_csv(const std::string& name, std::string_view text) {
     }
     const Eigen::Quaterniond q =
         w_last ? Eigen::Quaterniond(v[7], v[4], v[5], v[6]) : Eigen::Quaterniond(v[4], v[5], v[6], v[7]);
-    const double length = q.coeffs().stableNorm();
-    if (!(length > 1e-6 && length < 1e6)) fail_line(name, number, "the quaternion has no length near 1");
+    SE3 pose;
+    try {
+      pose = SE3(rotation_from_text(q), Eigen::Vector3d(v[1], v[2], v[3]));
+    } catch (const InputError& e) {
+      fail_line(name, number, e.what());
+    }
     if (!trajectory.empty() && time < last) {
       fail_line(name, number, "time " + std::string(words[0]) + " is before " + std::to_string(last));
     }
     last = time;
-    trajectory.push_back({static_cast<double>(time) / static_cast<double>(nanoseconds),
-                          SE3(q, Eigen::Vector3d(v[1], v[2], v[3])), seconds_text(time)});
+    trajectory.push_back({static_cast<double>(time) / static_cast<double>(nanoseconds), pose, seconds_text(time)});
     return true;
   });
   return trajectory;

@@ -4,6 +4,8 @@
 
 #include <charconv>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/text_words.hpp"
@@ -35,6 +37,7 @@ class HeaderReader {
   void read_line(const Words& words) {
     const std::string_view key = words[0];
     const std::size_t n = words.size() - 1;
+    if (!keys_.insert(std::string(key)).second) lines_.fail(shown(key) + " comes twice");
     if (key == "FIELDS" || key == "COLUMNS") {
       header_.fields.resize(n);
       for (std::size_t i = 0; i < n; ++i) header_.fields[i].name = words[i + 1];
@@ -111,20 +114,24 @@ class HeaderReader {
       header_.stride += field.count * field.size;
       if (header_.stride > max_stride) throw InputError(name_, "header", "a point has too many values");
     }
-    if (points_) {
-      header_.points = *points_;
-    } else if (width_ && height_) {
+    std::optional<std::uint64_t> product;
+    if (width_ && height_) {
       if (*height_ != 0 && *width_ > UINT64_MAX / *height_) throw InputError(name_, "header", "WIDTH is out of range");
-      header_.points = *width_ * *height_;
-    } else {
-      throw InputError(name_, "header", "POINTS is missing");
+      product = *width_ * *height_;
     }
+    if (points_ && product && *points_ != *product) {
+      throw InputError(name_, "header",
+                       "POINTS is " + std::to_string(*points_) + ", WIDTH times HEIGHT is " + std::to_string(*product));
+    }
+    if (!points_ && !product) throw InputError(name_, "header", "POINTS is missing");
+    header_.points = points_ ? *points_ : *product;
     return std::move(header_);
   }
 
   const std::string& name_;
   LineReader& lines_;
   PcdHeader header_;
+  std::set<std::string> keys_;
   std::optional<std::uint64_t> width_;
   std::optional<std::uint64_t> height_;
   std::optional<std::uint64_t> points_;

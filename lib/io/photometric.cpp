@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <optional>
 #include <sstream>
 #include <utility>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/camera_check.hpp"
 #include "odosplat/io/image_container.hpp"
 #include "odosplat/io/image_file.hpp"
 #include "odosplat/io/layouts.hpp"
@@ -22,6 +24,9 @@ namespace {
 
 constexpr float saturated = 254.5F / 255.0F;
 constexpr double time_tolerance = 0.01;  // [s]
+// Over the median. From the shortest to the longest, cameras reach 1e5.
+constexpr double least_exposure = 1e-6;
+constexpr double most_exposure = 1e6;
 
 // Numbers of every line that is no comment.
 struct NumberLine {
@@ -68,19 +73,28 @@ void require_positive(const std::string& name, const NumberLine& line, double ex
   if (!(exposure > 0.0)) throw InputError(name, "line " + std::to_string(line.number), "the exposure is not positive");
 }
 
-void divide_by_median(std::vector<double>& exposures) {
+void divide_by_median(const std::string& name, std::vector<double>& exposures) {
   if (exposures.empty()) return;
   std::vector<double> sorted = exposures;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
   const double median = *middle;
-  for (double& exposure : exposures) exposure /= median;
+  for (std::size_t i = 0; i < exposures.size(); ++i) {
+    const double relative = exposures[i] / median;
+    if (!(relative >= least_exposure && relative <= most_exposure)) {
+      char fault[120];
+      std::snprintf(fault, sizeof(fault), "its exposure %.6g is %.3g times the median, must be 1e-6..1e6 times it",
+                    exposures[i], relative);
+      throw InputError(name, "frame " + std::to_string(i), fault);
+    }
+    exposures[i] = relative;
+  }
 }
 
 }  // namespace
 
 PhotometricCorrection::PhotometricCorrection(double gamma, const cv::Mat1f& vignette) : gamma_(gamma) {
-  require(std::isfinite(gamma) && gamma > 0.0, "gamma", "positive");
+  require(gamma >= camera_limits::least_gamma && gamma <= camera_limits::most_gamma, "gamma", "in 0.1..10");
   if (vignette.empty()) return;
   gain_.create(vignette.size());
   for (int y = 0; y < vignette.rows; ++y) {
@@ -93,7 +107,7 @@ PhotometricCorrection::PhotometricCorrection(double gamma, const cv::Mat1f& vign
 }
 
 ColorImage PhotometricCorrection::apply(const ColorImage& image, double exposure) const {
-  require(std::isfinite(exposure) && exposure > 0.0, "exposure", "positive");
+  require(exposure >= least_exposure && exposure <= most_exposure, "exposure", "in 1e-6..1e6 (1: the median)");
   if (gain_.empty() && exposure == 1.0) return image;
   if (!gain_.empty() && gain_.size() != image.size()) {
     throw InputError("vignette", "is " + std::to_string(gain_.cols) + "x" + std::to_string(gain_.rows) +
@@ -146,7 +160,7 @@ std::vector<double> parse_exposures(const std::string& name, const std::string& 
   for (std::size_t i = 0; i < exposures.size(); ++i) {
     if (exposures[i] == 0.0) throw InputError(name, "has no exposure for frame " + std::to_string(i));
   }
-  divide_by_median(exposures);
+  divide_by_median(name, exposures);
   return exposures;
 }
 
@@ -164,7 +178,7 @@ std::vector<double> parse_dso_times(const std::string& name, const std::string& 
     throw InputError(name, "lists " + std::to_string(exposures.size()) + " exposures, the sequence has " +
                                std::to_string(frames) + " frames");
   }
-  divide_by_median(exposures);
+  divide_by_median(name, exposures);
   return exposures;
 }
 

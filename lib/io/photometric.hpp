@@ -42,9 +42,10 @@ cv::Mat1f read_vignette(const std::string& path, const ImageLimit& limit = {});
 /// Exposure times of a list, each over their median.
 ///   exposures.txt  "time exposure" a line; frames find theirs by time, at most 0.01 s away, and all must find one
 ///   times.txt      "id time exposure" a line (DSO), line k for frame k; as many lines as frames
-/// The unit of exposures is free. `frame_times` [s] ascend. InputError(name, fault): a line of another form, an
-/// exposure that is not positive, a frame without one, another number of lines. Other data sets have a times.txt too:
-/// one whose first line is not of DSO's form has no exposures, and the answer is empty.
+/// The unit of exposures is free; none may be under 1e-6 or over 1e6 times the median. `frame_times` [s] ascend.
+/// InputError(name, fault): a line of another form, an exposure that is not positive, a frame without one, another
+/// number of lines. Other data sets have a times.txt too: one whose first line is not of DSO's form has no exposures,
+/// and the answer is empty.
 std::vector<double> parse_exposures(const std::string& name, const std::string& text,
                                     const std::vector<double>& frame_times);
 std::vector<double> parse_dso_times(const std::string& name, const std::string& text, std::size_t frames);

@@ -66,8 +66,8 @@ struct Ply {
 
 /// Reads a whole file. Never allocates more than the file's size justifies. Throws InputError: not a PLY file, a header
 /// line that is not understood, a header that promises more rows than the file holds (says how many it holds), an ascii
-/// value that does not fit its type. NaN and infinite values are kept: what they mean is the caller's business. Bytes
-/// behind the last element are ignored.
+/// value that does not fit its type. NaN and infinite values are kept: what they mean is the caller's business. What
+/// a file holds behind its last element is not read; where a row would fit, one warning says how much that is.
 Ply read_ply(const std::string& path);
 /// The same from memory; `name` stands for the file in errors.
 Ply parse_ply(const std::string& name, const std::string& bytes);

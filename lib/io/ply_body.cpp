@@ -64,6 +64,26 @@ PlyElement PlyBody::next(std::uint64_t max_rows) {
   return std::move(element_);
 }
 
+std::string PlyBody::left_over() {
+  if (promised_ == nullptr || promised_->properties.empty()) return {};
+  std::string more;
+  if (format_ == PlyFormat::ascii) {
+    std::uint64_t lines = 0;
+    while (std::getline(in_, text_)) lines += text_.find_first_not_of(blanks) == std::string::npos ? 0 : 1;
+    if (lines > 0) more = std::to_string(lines) + " lines";
+  } else {
+    std::uint64_t stride = 0;
+    for (const PlyHeaderProperty& p : promised_->properties) stride += ply_size(p.is_list ? p.length_type : p.type);
+    if (left_ >= stride) {
+      more = std::to_string(left_) + " bytes";
+      if (!has_list_) more += ", room for " + std::to_string(left_ / stride) + " rows";
+    }
+  }
+  if (more.empty()) return {};
+  return "the header promises " + std::to_string(promised_->rows) + " rows of " + promised_->name +
+         ", the file goes on for " + more + ", which are not read";
+}
+
 void PlyBody::too_short(std::uint64_t held) const {
   throw InputError(name_, "the header promises " + std::to_string(promised_->rows) + " rows of " + promised_->name +
                               ", the file holds " + std::to_string(held));

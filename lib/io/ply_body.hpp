@@ -27,6 +27,10 @@ class PlyBody {
   /// nothing proves their number: they count as none.
   PlyElement next(std::uint64_t max_rows);
 
+  /// Behind the last element: what the file holds beyond it, as "the header promises 5 rows of vertex, the file goes on
+  /// for ..."; empty if that is no more than blank lines, or fewer bytes than a row (padding).
+  std::string left_over();
+
  private:
   [[noreturn]] void too_short(std::uint64_t held) const;
   [[noreturn]] void fail(const std::string& fault) const;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/ply.hpp"
 #include "odosplat/io/ply_body.hpp"
@@ -24,6 +25,8 @@ Ply read_from(const std::string& name, std::istream& in, std::uint64_t size) {
     body.begin(element);
     ply.elements.push_back(body.next(std::numeric_limits<std::uint64_t>::max()));
   }
+  const std::string more = body.left_over();
+  if (!more.empty()) log_warning(name + ": " + more);
   return ply;
 }
 

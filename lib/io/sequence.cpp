@@ -13,6 +13,8 @@
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/near_origin.hpp"
 #include "odosplat/core/stamp_guess.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/camera_check.hpp"
 #include "odosplat/io/image_file.hpp"
 #include "odosplat/io/layouts.hpp"
 #include "odosplat/io/photometric.hpp"
@@ -160,17 +162,23 @@ struct Sequence::Data {
     bool any_depth = false;
     bool wants_depth = false;
     std::size_t missing = 0;
-    std::string first_missing;
+    std::optional<InputError> first_fault;
     for (const FrameFiles& f : index.frames) {
-      if (!index.video && !file_exists(f.color) && missing++ == 0) first_missing = f.color;
+      if (!index.video) {
+        try {
+          require_regular_file(f.color);
+        } catch (const InputError& e) {
+          if (missing++ == 0) first_fault = e;
+        }
+      }
       wants_depth = wants_depth || !f.depth.empty();
       any_depth = any_depth || (!f.depth.empty() && file_exists(f.depth));
     }
     // Like a damaged image, one that is not there is its frame's fault.
-    if (missing == index.frames.size() && missing > 0) throw InputError(first_missing, "is missing");
-    if (missing > 0) {
+    if (first_fault && missing == index.frames.size()) throw *first_fault;
+    if (first_fault) {
       log_warning(name + ": " + std::to_string(missing) + " of " + std::to_string(index.frames.size()) +
-                  " listed images are missing, such as " + first_missing);
+                  " listed images are not there, such as " + first_fault->what());
     }
     if (wants_depth && !any_depth) {
       log_debug(name + ": the listed depth files are not there; reading without depth");
@@ -190,6 +198,7 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
   data->max_image_pixels = options.max_image_pixels;
   data->index = layout.index(path, options);
   SequenceIndex& index = data->index;
+  check_camera(index.camera_source, index.camera);
   data->require_files();
   data->reflected = index.camera.fy_sign < 0 && !options.as_stored;
   if (data->reflected) {

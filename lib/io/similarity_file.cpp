@@ -29,10 +29,11 @@ Similarity parse_similarity(const std::string& name, const std::string& text) {
     throw InputError(name, "must be \"s tx ty tz qx qy qz qw\", holds " + std::to_string(v.size()) + " numbers");
   }
   if (!(v[0] > 0.0)) throw InputError(name, "the scale must be positive");
-  const Eigen::Vector4d q(v[4], v[5], v[6], v[7]);
-  const double length = q.stableNorm();
-  if (!(length > 1e-6 && length < 1e6)) throw InputError(name, "the quaternion has no sensible length");
-  return {v[0], SE3(Eigen::Quaterniond(Eigen::Vector4d(q / length)), Eigen::Vector3d(v[1], v[2], v[3]))};
+  try {
+    return {v[0], SE3(rotation_from_text({v[7], v[4], v[5], v[6]}), Eigen::Vector3d(v[1], v[2], v[3]))};
+  } catch (const InputError& e) {
+    throw InputError(name, e.what());
+  }
 }
 
 std::string similarity_text(const Similarity& similarity) {

@@ -70,6 +70,7 @@ class LayoutFinder {
         read_names(line);
       } else if (rows_.empty() && words.size() == 1 && !begins_with_count_) {
         begins_with_count_ = true;
+        count_ = count_of(words[0]);
         lines_before_ = lines_.number();
       } else {
         if (rows_.empty()) lines_before_ = lines_.number() - 1;
@@ -80,6 +81,7 @@ class LayoutFinder {
     if (rows_.empty()) return {};
     TextLayout layout = named_ ? *named_ : layout_by_number();
     layout.separator = separator_;
+    layout.count = count_;
     layout.lines_before = lines_before_;
     return layout;
   }
@@ -88,6 +90,14 @@ class LayoutFinder {
   void read_names(const std::string& line) {
     named_ = layout_of(names_of(line));
     if (!named_) lines_.fail("neither holds numbers nor names columns x y z: `" + shown(line) + "`");
+  }
+
+  std::uint64_t count_of(std::string_view word) const {
+    const double value = number_of(word).value_or(-1.0);
+    if (!(value >= 0.0 && value <= 1e15) || value != std::floor(value)) {
+      lines_.fail("`" + shown(word) + "` is no number of points");
+    }
+    return static_cast<std::uint64_t>(value);
   }
 
   // Values that are no numbers are the reader's to complain about.
@@ -143,6 +153,7 @@ class LayoutFinder {
   LineReader lines_;
   char separator_ = ' ';
   bool begins_with_count_ = false;
+  std::optional<std::uint64_t> count_;
   std::size_t lines_before_ = 0;
   std::optional<TextLayout> named_;
   std::vector<std::vector<double>> rows_;

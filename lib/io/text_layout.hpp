@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <istream>
 #include <optional>
 #include <string>
@@ -20,7 +21,8 @@ struct TextLayout {
   std::size_t columns = 3;
   std::size_t lines_before = 0;  // the first point
   Triple point{0, 1, 2};
-  bool has_names = false;  // the file names its columns
+  bool has_names = false;              // the file names its columns
+  std::optional<std::uint64_t> count;  // of points, from a first line that is one number
   std::optional<Triple> color;
   std::optional<Triple> normal;
 };

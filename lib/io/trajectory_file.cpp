@@ -96,12 +96,11 @@ StampedPose tum_pose(const Lines& lines, const Line& line) {
   const double time = lines.stamp(line);
   if (!all_finite(v)) return {time, no_pose(), line.first};
   const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);
-  // Eigen's norm squares: values beyond 1e150 would overflow it.
-  const double length = q.coeffs().stableNorm();
-  if (!(length > 1e-6 && length < 1e6))
-    lines.fail(line,
-               "the quaternion has length " + (length < 1.0 ? std::string("zero") : std::string("beyond reason")));
-  return {time, SE3(q, Eigen::Vector3d(v[1], v[2], v[3])), line.first};
+  try {
+    return {time, SE3(rotation_from_text(q), Eigen::Vector3d(v[1], v[2], v[3])), line.first};
+  } catch (const InputError& e) {
+    lines.fail(line, e.what());
+  }
 }
 
 // `rows` lines of four values, from line `first` on, one behind the other.

@@ -10,9 +10,13 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <string_view>
+#include <vector>
 
 #include "odosplat/core/error.hpp"
 
@@ -36,6 +40,11 @@ using Packet = std::unique_ptr<AVPacket, Free<av_packet_free>>;
 using Frame = std::unique_ptr<AVFrame, Free<av_frame_free>>;
 using Scaler = std::unique_ptr<SwsContext, FreeScaler>;
 
+// FFmpeg's names of the formats that are one file.
+constexpr const char* single_files =
+    "mov,matroska,avi,mpegts,mpeg,mpegvideo,m4v,ogg,flv,asf,mxf,nut,dv,ivf,h261,h263,h264,hevc,av1,obu,vc1,mjpeg,"
+    "mjpeg_2000,gif,apng";
+
 [[noreturn]] void no_video(const std::string& path) { throw InputError(path, "is not a video that can be read"); }
 
 // With `flags` of AVFormatContext.
@@ -44,8 +53,9 @@ Format open_format(const std::string& path, int flags) {
   if (format == nullptr) no_video(path);
   format->flags |= flags;
   AVDictionary* options = nullptr;
-  // Playlists name other files and addresses.
+  // Playlists and lists name other files and addresses, which may be pipes; they are opened when the header is read.
   av_dict_set(&options, "protocol_whitelist", "file", 0);
+  av_dict_set(&options, "format_whitelist", single_files, 0);
   const int opened = avformat_open_input(&format, ("file:" + path).c_str(), nullptr, &options);
   av_dict_free(&options);
   if (opened < 0) no_video(path);  // the context is freed then
@@ -102,6 +112,17 @@ struct VideoDecoder::State {
   Packet packet{av_packet_alloc()};
   Frame frame{av_frame_alloc()};
   Scaler scaler;
+  // What the container promises: images by its index (0: it has none), images by its header (AVI: also those that stand
+  // for a repeated one), and its length [s].
+  long indexed = 0;
+  long declared = 0;
+  double declared_s = 0.0;
+  bool is_avi = false;
+  // What there is.
+  long packets = 0;
+  std::int64_t end = 0;  // of the last image, in the stream's time base
+  long undecoded = 0;
+  long corrupt = 0;
 
   const AVStream& video() const { return *format->streams[stream]; }
   std::optional<double> seconds(std::int64_t stamp) const {
@@ -113,11 +134,43 @@ struct VideoDecoder::State {
   void feed() {
     while (av_read_frame(format.get(), packet.get()) >= 0) {
       const bool ours = packet->stream_index == stream;
-      if (ours) avcodec_send_packet(codec.get(), packet.get());
+      if (ours) {
+        note(*packet);
+        if (avcodec_send_packet(codec.get(), packet.get()) < 0) ++undecoded;
+      }
       av_packet_unref(packet.get());
       if (ours) return;
     }
     avcodec_send_packet(codec.get(), nullptr);
+  }
+
+  void note(const AVPacket& taken) {
+    const std::int64_t start = taken.pts != AV_NOPTS_VALUE && !is_avi ? taken.pts : taken.dts;
+    if (start != AV_NOPTS_VALUE) end = std::max(end, start + taken.duration);
+    ++packets;
+  }
+
+  // entries: images of each stream by the index, before any packet is read: later it holds what was found.
+  void note_promises(const std::vector<long>& entries) {
+    is_avi = std::string_view(format->iformat->name) == "avi";
+    indexed = entries.at(static_cast<std::size_t>(stream));
+    if (is_avi) declared = static_cast<long>(video().nb_frames);
+    note_length();
+  }
+
+  // Matroska says how long its video is, or how long all streams are; of transport streams FFmpeg itself measures it.
+  void note_length() {
+    const AVDictionaryEntry* tag = av_dict_get(video().metadata, "DURATION", nullptr, 0);
+    int hours = 0;
+    int minutes = 0;
+    double rest = 0.0;
+    if (tag != nullptr && std::sscanf(tag->value, "%d:%d:%lf", &hours, &minutes, &rest) == 3) {
+      declared_s = 3600.0 * hours + 60.0 * minutes + rest;
+    } else if (format->nb_streams == 1 && format->duration != AV_NOPTS_VALUE &&
+               format->duration_estimation_method == AVFMT_DURATION_FROM_STREAM) {
+      declared_s = static_cast<double>(format->duration) / AV_TIME_BASE;
+      if (format->start_time != AV_NOPTS_VALUE) declared_s += static_cast<double>(format->start_time) / AV_TIME_BASE;
+    }
   }
 };
 
@@ -126,6 +179,9 @@ VideoDecoder::VideoDecoder(const std::string& path) : state_(std::make_unique<St
   State& s = *state_;
   s.path = path;
   s.format = open_format(path, 0);
+  std::vector<long> indexed;
+  for (unsigned i = 0; i < s.format->nb_streams; ++i)
+    indexed.push_back(avformat_index_get_entries_count(s.format->streams[i]));
   if (avformat_find_stream_info(s.format.get(), nullptr) < 0) no_video(path);
   const AVCodec* decoder = nullptr;
   s.stream = av_find_best_stream(s.format.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &decoder, 0);
@@ -137,6 +193,7 @@ VideoDecoder::VideoDecoder(const std::string& path) : state_(std::make_unique<St
   for (unsigned i = 0; i < s.format->nb_streams; ++i) {
     if (static_cast<int>(i) != s.stream) s.format->streams[i]->discard = AVDISCARD_ALL;
   }
+  s.note_promises(indexed);
   s.quarters = quarters_of(path, s.video());
   s.codec.reset(avcodec_alloc_context3(decoder));
   if (s.codec == nullptr || avcodec_parameters_to_context(s.codec.get(), s.video().codecpar) < 0) no_video(path);
@@ -161,10 +218,30 @@ bool VideoDecoder::next() {
   State& s = *state_;
   while (true) {
     const int received = avcodec_receive_frame(s.codec.get(), s.frame.get());
-    if (received == 0) return true;
+    if (received == 0) {
+      if ((s.frame->flags & AV_FRAME_FLAG_CORRUPT) != 0 || s.frame->decode_error_flags != 0) ++s.corrupt;
+      return true;
+    }
     if (received == AVERROR_EOF) return false;
+    if (received != AVERROR(EAGAIN)) ++s.undecoded;
     s.feed();
   }
+}
+
+VideoDecoder::Damage VideoDecoder::damage() const {
+  const State& s = *state_;
+  Damage damage;
+  damage.undecoded = s.undecoded;
+  damage.corrupt = s.corrupt;
+  damage.missing = std::max(0L, s.indexed - s.packets);
+  // An AVI's stamps count its images and repetitions.
+  if (s.is_avi) damage.missing = std::max({0L, damage.missing, s.declared - static_cast<long>(s.end)});
+  damage.shifts_stamps = s.is_avi && damage.missing > 0;
+  const double end_s = s.seconds(s.end).value_or(0.0);
+  const double image_s = rate() > 0.0 ? 1.0 / rate() : 0.0;
+  // The last image's own length is often unknown, and then not in `end`.
+  if (damage.missing == 0 && s.declared_s - end_s > 1.5 * image_s + 0.01) damage.missing_s = s.declared_s - end_s;
+  return damage;
 }
 
 std::optional<double> VideoDecoder::time() const { return state_->seconds(state_->frame->pts); }

@@ -3,10 +3,12 @@
 #include "odosplat/io/video_reader.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <mutex>
 #include <optional>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/video_decoder.hpp"
 
@@ -37,6 +39,27 @@ Pass read_all(const std::string& path, VideoDecoder& decoder) {
   }
   if (pass.times.empty()) throw InputError(path, "holds no frame");
   return pass;
+}
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2f s", seconds);
+  return text;
+}
+
+// One line that says what the file promises and does not hold.
+void warn_of_damage(const std::string& path, const VideoDecoder::Damage& damage, std::size_t frames) {
+  if (!damage.any()) return;
+  std::string faults;
+  const auto add = [&faults](const std::string& fault) { faults += (faults.empty() ? "" : ", ") + fault; };
+  if (damage.missing > 0) add(std::to_string(damage.missing) + " that it promises are missing");
+  if (damage.missing_s > 0.0) add("it ends " + seconds_text(damage.missing_s) + " before its header says");
+  if (damage.undecoded > 0) add(std::to_string(damage.undecoded) + " cannot be decoded and are left out");
+  if (damage.corrupt > 0) add(std::to_string(damage.corrupt) + " are decoded from damaged data");
+  log_warning(path + ": is damaged or cut off: " + std::to_string(frames) + " images are read, " + faults +
+              (damage.shifts_stamps ? "; its stamps count the images, so that those behind a missing one are "
+                                      "too early"
+                                    : ""));
 }
 
 bool are_all_known(const std::vector<std::optional<double>>& times) {
@@ -98,6 +121,7 @@ VideoReader::VideoReader(std::string path) : state_(std::make_unique<State>()) {
   require_regular_file(s.path);
   VideoDecoder decoder(s.path);
   const Pass pass = read_all(s.path, decoder);
+  warn_of_damage(s.path, decoder.damage(), pass.times.size());
   s.size = pass.times.size();
   s.frame_size = pass.frame_size;
   s.quarters = decoder.quarters();

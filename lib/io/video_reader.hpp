@@ -13,7 +13,8 @@ namespace odosplat {
 /// Frames of a video file by number, in the order of presentation, turned as the container says that they are to be
 /// shown (as players and ffmpeg turn them). Frames that are asked for in order are decoded once; going back starts
 /// again at the first, since seeking lands on the right frame with some formats only. All frames are decoded once at
-/// construction, for their number and stamps, since what a file says of its length is often wrong. InputError if the
+/// construction, for their number and stamps, since what a file says of its length is often wrong; one warning tells of
+/// images that it promises and does not hold, and of those that are damaged (VideoDecoder::Damage). InputError if the
 /// file is no video or holds no frame, if its frames are not of one size or if their stamps do not grow. Thread safe.
 class VideoReader {
  public:

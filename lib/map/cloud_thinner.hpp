@@ -22,7 +22,7 @@ class CloudThinner {
   /// precision: the way to bring a cloud in survey coordinates near.
   explicit CloudThinner(double voxel, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-  /// Points 1e9 voxels or more from the origin are dropped.
+  /// Points that are not finite are dropped. InputError for a voxel that is too small for a point (VoxelGrid::at).
   void add(const CloudBatch& batch);
 
   /// The cloud so far. Colours and normals are all or nothing: if some points came without, they are left out, with a

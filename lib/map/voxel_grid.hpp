@@ -24,15 +24,17 @@ class VoxelGrid {
   /// voxel: edge of a cell [m], > 0 and finite, else InputError.
   explicit VoxelGrid(double voxel);
 
-  /// The cell of point, made if new; nullptr for a point that is not finite or 1e9 voxels or more from the origin. The
-  /// pointer holds until the next call.
+  /// The cell of point, made if new; nullptr for a point that is not finite. Where a voxel is smaller than the steps of
+  /// double precision at the point, every place is a cell of its own. InputError if the point is farther from the
+  /// origin than 1.8e308 voxels. The pointer holds until the next call.
   Cell* at(const Eigen::Vector3d& point);
 
   const std::vector<Cell>& cells() const { return cells_; }
 
  private:
+  // Whole numbers, kept as doubles: any number of voxels fits.
   struct Key {
-    std::int32_t x, y, z;
+    double x, y, z;
     bool operator==(const Key&) const = default;
   };
   struct Hash {

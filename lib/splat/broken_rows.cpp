@@ -33,7 +33,12 @@ void BrokenRows::add(std::size_t i, const std::string& fault) {
   first_fault_ = fault;
 }
 
-void BrokenRows::leave_out(Gaussians& gaussians) const {
+void BrokenRows::leave_out(Gaussians& gaussians) {
+  for (std::size_t i = 0; i < is_broken_.size(); ++i) {
+    if (is_broken_[i]) continue;
+    const std::string fault = undrawable_value(gaussians, i);
+    if (!fault.empty()) add(i, fault);
+  }
   if (broken_ == 0) return;
   const std::string of_all = std::to_string(broken_) + " of " + std::to_string(is_broken_.size()) + " Gaussians";
   if (broken_ * most_in > is_broken_.size()) {

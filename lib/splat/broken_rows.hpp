@@ -10,8 +10,8 @@
 
 namespace odosplat {
 
-/// Gaussians of a file that hold a value which is none, as programs leave them behind where training diverged: a few
-/// are left out, many make the file worthless.
+/// Gaussians of a file that hold a value which is none, or which no device can draw (undrawable_value), as programs
+/// leave them behind where training diverged: a few are left out, many make the file worthless.
 class BrokenRows {
  public:
   /// `name` stands for the file in messages, `count` is its number of Gaussians.
@@ -20,9 +20,9 @@ class BrokenRows {
   /// Says what is wrong with Gaussian i, from 0; the first fault said is the one that is shown.
   void add(std::size_t i, const std::string& fault);
 
-  /// Takes them out of `gaussians`, which has all rows, with one warning. InputError(file, "Gaussian N", fault) if they
-  /// are more than a tenth.
-  void leave_out(Gaussians& gaussians) const;
+  /// Adds those that cannot be drawn, and takes all out of `gaussians`, which has all rows, with one warning.
+  /// InputError(file, "Gaussian N", fault) if they are more than a tenth.
+  void leave_out(Gaussians& gaussians);
 
  private:
   std::string name_;

@@ -78,8 +78,23 @@ void Exposures::backward(int view, const compute::Buffer<float>& rendered, int w
   }
 }
 
-void Exposures::set_state(const std::vector<double>& state) {
+void Exposures::check_state(const std::vector<double>& state, int iterations) const {
   require(state.size() == state_.size(), "exposures", "those of " + std::to_string(state_.size() / row) + " views");
+  double steps = 0.0;
+  for (std::size_t at = 0; at < state.size(); at += row) {
+    const double* mine = &state[at];
+    require(std::all_of(mine, mine + row, [](double v) { return std::isfinite(v); }), "exposures", "finite");
+    require(std::all_of(mine + 2 * settings, mine + 3 * settings, [](double v) { return v >= 0.0; }), "exposures",
+            "such that no mean of squares is negative");
+    require(mine[row - 1] >= 0.0 && mine[row - 1] == std::floor(mine[row - 1]), "exposures",
+            "of whole numbers of steps");
+    steps += mine[row - 1];
+  }
+  require(steps == (on() ? iterations : 0), "exposures", "of one step an iteration");
+}
+
+void Exposures::set_state(const std::vector<double>& state, int iterations) {
+  check_state(state, iterations);
   state_ = state;
 }
 

@@ -36,9 +36,12 @@ class Exposures {
   /// Gains and offsets of a view.
   std::array<double, settings> of(int view) const;
 
-  /// All that a checkpoint needs: per view settings, both moments, steps. set_state throws InputError for another size.
+  /// All that a checkpoint needs: per view settings, both moments, steps. check_state and set_state throw InputError
+  /// for another size and for numbers that a run of so many iterations cannot have: moments of squares that are
+  /// negative, steps of all views that are not one an iteration.
   const std::vector<double>& state() const { return state_; }
-  void set_state(const std::vector<double>& state);
+  void check_state(const std::vector<double>& state, int iterations) const;
+  void set_state(const std::vector<double>& state, int iterations);
 
  private:
   static constexpr std::size_t row = 3 * settings + 1;

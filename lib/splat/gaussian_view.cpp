@@ -29,7 +29,7 @@ void GaussianViewOptions::check() const {
 GaussianViewOptions view_options(const std::string& map_file) {
   GaussianViewOptions options;
   options.sigma = read_sigma_model(map_file);
-  options.rasterizer.order = read_blend_order(map_file);
+  options.rasterizer = read_rasterizer_options(map_file);
   return options;
 }
 

@@ -23,7 +23,7 @@ struct GaussianViewOptions {
 };
 
 /// Defaults, with what the map's file says of itself: how sure its depth is, what its Gaussians are sorted by. Throws
-/// what read_sigma_model and read_blend_order (map_file.hpp) throw.
+/// what read_sigma_model and read_rasterizer_options (map_file.hpp) throw.
 GaussianViewOptions view_options(const std::string& map_file);
 
 /// "expected", "median", "blended" or "surface"; InputError else.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace odosplat {
@@ -33,5 +34,26 @@ struct Gaussians {
   void resize(std::size_t n);
   void check() const;
 };
+
+/// The largest values that the kernels' single precision can carry; a Gaussian beyond one of them is never drawn, or
+/// spoils the pixels that it touches.
+namespace gaussian_limits {
+/// Of a coordinate [m]: floats go by steps of 1 m there, and nothing is drawn at 1e6 m from the camera or farther.
+constexpr float place = 1e7F;
+/// Of a standard deviation [ln m]: 1e6 m. Its projection is (f e^s / z)^4 in a determinant, which overflows at
+/// f e^s / z = 4e9.
+constexpr float log_scale = 13.8156F;
+/// Of the length of a quaternion, which is squared: 1e-15 .. 1e15 keeps the square and its inverse clear of both ends
+/// of the range (1e-38 .. 3e38).
+constexpr float least_rotation = 1e-15F;
+constexpr float rotation = 1e15F;
+/// Of a coefficient of colour: floats go by steps of a quarter of a grey level (of 255) there, so that a sum holds
+/// nothing of the colours that it is blended with.
+constexpr float color = 1e4F;
+}  // namespace gaussian_limits
+
+/// What no device can draw in Gaussian i of `gaussians`, all of whose values are finite: "its rotation has length 0";
+/// empty if it can be drawn. An opacity may be any number (its ends are 0 and 1), and a size as small as one likes.
+std::string undrawable_value(const Gaussians& gaussians, std::size_t i);
 
 }  // namespace odosplat

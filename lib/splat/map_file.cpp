@@ -23,6 +23,7 @@
 #include "odosplat/io/ply_header.hpp"
 #include "odosplat/io/text_words.hpp"
 #include "odosplat/splat/broken_rows.hpp"
+#include "odosplat/splat/map_header.hpp"
 #include "odosplat/splat/splat_file.hpp"
 
 namespace odosplat {
@@ -97,8 +98,17 @@ float finite_value(const Field& field, float value) {
   return value;
 }
 
+void check_comments(const std::string& path, const std::vector<std::string>& comments) {
+  try {
+    check_map_header(comments);
+  } catch (const InputError& e) {
+    throw InputError(path, "header", e.what());
+  }
+}
+
 Gaussians gaussians_from_ply(const Ply& ply) {
   const std::string& path = ply.file;
+  check_comments(path, ply.comments);
   const PlyElement& vertex = ply.element(element_name);
   std::vector<std::string> names;
   for (const PlyProperty& property : vertex.properties) names.push_back(property.name);
@@ -154,16 +164,19 @@ void write_splat(const std::string& path, const Gaussians& gaussians, const std:
   write_file_atomically(path, splat_bytes(gaussians));
 }
 
-/// What the header's comments say; none if the file is no PLY or cannot be read.
+/// What the header's comments say, checked; none if the file is no PLY or cannot be read.
 std::vector<std::string> header_notes(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return {};
   std::ifstream file(path, std::ios::binary);
+  std::vector<std::string> comments;
   try {
-    return read_ply_header(path, file).comments;
+    comments = read_ply_header(path, file).comments;
   } catch (const InputError&) {
     return {};
   }
+  check_comments(path, comments);
+  return comments;
 }
 
 /// Empty if it is no regular file or cannot be read.
@@ -213,8 +226,10 @@ Gaussians parse_map(const std::string& name, const std::string& bytes) {
 
 std::vector<std::string> read_map_notes(const std::string& path) {
   std::vector<std::string> notes = header_notes(path);
-  std::erase_if(notes, [](const std::string& note) {
-    return std::find(format_notes.begin(), format_notes.end(), note) != format_notes.end();
+  const bool is_ours = std::find(notes.begin(), notes.end(), format_notes.front()) != notes.end();
+  std::erase_if(notes, [is_ours](const std::string& note) {
+    return std::find(format_notes.begin(), format_notes.end(), note) != format_notes.end() ||
+           (!is_ours && names_map_setting(note));
   });
   return notes;
 }
@@ -235,6 +250,15 @@ BlendOrder read_blend_order(const std::string& path) {
   } catch (const InputError& e) {
     throw InputError(path, "header", e.what());
   }
+}
+
+RasterizerOptions read_rasterizer_options(const std::string& path) {
+  const std::vector<std::string> notes = header_notes(path);
+  RasterizerOptions options;
+  options.order = read_blend_order(path);
+  if (const auto value = map_header_number(notes, "dilation")) options.dilation = static_cast<float>(*value);
+  if (const auto value = map_header_number(notes, "compensated")) options.compensated = *value != 0.0;
+  return options;
 }
 
 std::vector<SE3> read_map_places(const std::string& path) {

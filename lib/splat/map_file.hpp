@@ -10,6 +10,7 @@
 #include "odosplat/splat/gaussians.hpp"
 #include "odosplat/splat/map_places.hpp"
 #include "odosplat/splat/map_quality.hpp"
+#include "odosplat/splat/rasterizer.hpp"
 #include "odosplat/splat/sigma_model.hpp"
 
 namespace odosplat {
@@ -21,11 +22,14 @@ namespace odosplat {
 ///   scale_0..2 (ln m), rot_0..3 (w x y z)
 /// with K = (degree + 1)^2 coefficients, degree 0..3; float or double. Other properties (nx ny nz) are ignored. Without
 /// scale_2 (2D Gaussian splatting) the Gaussians are discs of 1e-6 m. An infinite opacity is 1 or 0, a scale of minus
-/// infinity 1e-10 m. Gaussians with other values that are not finite are left out with one warning (BrokenRows).
+/// infinity 1e-10 m. Gaussians with other values that are not finite, or
+/// that no device can draw (undrawable_value: a rotation of length 0, e^80 m), are left out with one warning
+/// (BrokenRows).
 /// Throws InputError naming the file and the fault: missing file or property, a property of whole numbers (half floats
 /// stored as ushort), a number of f_rest that fits no degree, more than a tenth of the Gaussians broken (naming the
 /// first), no Gaussians, a format that is not read (refuse_foreign_format, refuse_packed_ply), a map too far from the
-/// origin for single precision (require_near_origin), and what read_ply refuses.
+/// origin for single precision (require_near_origin), a broken field of our header (check_map_header), and what
+/// read_ply refuses.
 Gaussians read_map(const std::string& path);
 /// The same from memory; `name` stands for the file, its extension included.
 Gaussians parse_map(const std::string& name, const std::string& bytes);
@@ -37,8 +41,12 @@ bool is_splat_path(const std::string& path);
 /// if it cannot be read; InputError for a PLY whose header is broken.
 bool is_map_file(const std::string& path);
 
-/// The lines of `notes` that write_map was given, or the comments of another program's PLY; none of other formats.
+/// The lines of `notes` that write_map was given, or the comments of another program's PLY, without those that begin
+/// with the name of a setting of ours; none of other formats.
 std::vector<std::string> read_map_notes(const std::string& path);
+
+/// The functions below read the header's comments, and throw InputError naming the file and the field for what
+/// check_map_header refuses.
 
 /// How sure the map's depth is, from the header's comments "sigma_..." that training writes (SigmaModel::to_lines); the
 /// defaults where there are none (maps trained elsewhere, other formats). InputError if they are no numbers.
@@ -48,6 +56,11 @@ SigmaModel read_sigma_model(const std::string& path);
 /// training writes (blend_order_line); depth where there is none (maps trained elsewhere, other formats). InputError if
 /// it is neither.
 BlendOrder read_blend_order(const std::string& path);
+
+/// How the map's Gaussians were widened and their opacities compensated in training, from the header's comments
+/// "dilation" and "compensated", and their blend order: what they are to be rendered with. The defaults where there are
+/// none.
+RasterizerOptions read_rasterizer_options(const std::string& path);
 
 /// Where the map's training images were taken, thinned, from the header's comments "training_view ..." (place_lines);
 /// none where there are no such comments. InputError if they are broken.

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/splat/gaussians.hpp"
 
 namespace odosplat {
 
@@ -62,9 +63,13 @@ std::vector<SE3> places_from_lines(const std::vector<std::string>& lines) {
         throw InputError("training_view", "must be seven numbers, is \"" + line + "\"");
     }
     const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-    if (!(q.norm() > 0.5 && q.norm() < 2.0))
-      throw InputError("training_view", "must have a unit quaternion, is \"" + line + "\"");
-    places.emplace_back(q, Eigen::Vector3d(v[0], v[1], v[2]));
+    if (!(std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}) <= double{gaussian_limits::place}))
+      throw InputError("training_view", "must lie within 1e7 m of the origin, is \"" + line + "\"");
+    try {
+      places.emplace_back(rotation_from_text(q), Eigen::Vector3d(v[0], v[1], v[2]));
+    } catch (const InputError& e) {
+      throw InputError("training_view", std::string(e.what()) + ", in \"" + line + "\"");
+    }
   }
   return places;
 }

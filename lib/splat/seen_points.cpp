@@ -33,6 +33,8 @@ std::vector<SeenPoints::Point> SeenPoints::in(const Camera& camera, const SE3& T
   const cv::Mat1f nearest = splat_discs(points, camera, disc_spacings);
   std::vector<Point> seen;
   for (const ProjectedPoint& p : points) {
+    // Compared as floats: the centre of a disc right before the camera can lie beyond the range of int.
+    if (!(std::abs(p.u) < 1e6F && std::abs(p.v) < 1e6F)) continue;
     const int x = static_cast<int>(std::lround(p.u));
     const int y = static_cast<int>(std::lround(p.v));
     if (x < 0 || y < 0 || x >= camera.width || y >= camera.height) continue;

@@ -18,11 +18,12 @@ constexpr std::array<Factor, 4> factors{
     Factor{"sigma_spread", &SigmaModel::spread}, Factor{"sigma_slope_px", &SigmaModel::slope_px},
     Factor{"sigma_depth_share", &SigmaModel::depth_share}, Factor{"sigma_open_share", &SigmaModel::open_share}};
 
+constexpr float most = 100.0F;  // squares of it, times those of depths, stay far below the largest float
+
 }  // namespace
 
 void SigmaModel::check() const {
-  for (const auto& [name, factor] : factors)
-    require(this->*factor >= 0.0F && std::isfinite(this->*factor), name, "at least 0");
+  for (const auto& [name, factor] : factors) require(this->*factor >= 0.0F && this->*factor <= most, name, "in 0..100");
 }
 
 std::vector<std::string> SigmaModel::to_lines() const {

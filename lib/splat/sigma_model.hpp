@@ -12,7 +12,7 @@ namespace odosplat {
 ///   slope_px * (slope of the Gaussians' planes [m/px])     an error across the image on a surface seen at an angle
 ///   depth_share * D                                        what is left everywhere
 ///   open_share * (1 - alpha) * D                           what the map does not cover
-/// All factors >= 0. The defaults are those of an uncalibrated map.
+/// All factors in 0..100. The defaults are those of an uncalibrated map.
 struct SigmaModel {
   float spread = 1.0F;
   float slope_px = 0.5F;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -28,6 +27,10 @@ bool within(std::int64_t value, std::int64_t least, std::int64_t most) { return 
 template <typename T>
 bool all_finite(const std::vector<T>& values) {
   return std::all_of(values.begin(), values.end(), [](T v) { return std::isfinite(v); });
+}
+
+bool none_negative(const std::vector<float>& values) {
+  return std::none_of(values.begin(), values.end(), [](float v) { return v < 0.0F; });
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -94,7 +97,11 @@ void Trainer::resume(const Checkpoint& c) {
   require(undone.size() == 2 && within(undone[0], 0, options_.iterations) && within(undone[1], 0, 1), "undone",
           "two counts that a run can have");
   Checkpoint best = c.behind(best_prefix);
-  guard_.set_state(c.get<double>("guard"));
+  const auto guard = c.get<double>("guard");
+  guard_.set_state(guard);
+  const double most_levels = options_.coarse_levels;
+  require(guard[0] <= most_levels && guard[3] <= most_levels && guard[1] <= 2 * TrainingGuard::interval, "guard",
+          "the state of a guard of this run");
   if (!best.empty()) set_state(best);  // a damaged one is refused before it is needed
   set_state(c);
   best_ = std::move(best);
@@ -113,9 +120,13 @@ void Trainer::set_state(const Checkpoint& c) {
   require(within(progress[0], 0, options_.iterations) && within(progress[1], 0, views_.count() - 1) &&
               within(progress[2], 0, options_.coarse_levels),
           "progress", "iteration, view and level of this run");
-  require(all_finite(psnr) && all_finite(depth_errors) && last[5] >= 0.0, "last", "numbers that a run can have");
+  const auto known = [](double error) { return error >= 0.0 || error == -1.0; };  // -1: not yet
+  require(all_finite(psnr) && all_finite(depth_errors) && last[5] >= 0.0 &&
+              std::all_of(depth_errors.begin(), depth_errors.end(), known),
+          "last", "numbers that a run can have");
+  const auto iterations = static_cast<int>(progress[0]);
   const auto exposures = c.get<double>("exposures");
-  require(all_finite(exposures), "exposures", "finite");
+  exposures_.check_state(exposures, iterations);
   Gaussians g;
   g.sh_degree = gaussians_.sh_degree;
   g.positions = c.get<float>("gaussians/positions");
@@ -142,25 +153,38 @@ void Trainer::set_state(const Checkpoint& c) {
   rows.push_back({&anchors_, rows_of("anchors", 8, !anchors_.empty())});
   rows.push_back({&pulls_, rows_of("pulls", 1, !pulls_.empty())});
   rows.push_back({&seen_, rows_of("seen", 1, !seen_.empty())});
+  for (std::size_t i = 2; i < rows.size(); ++i) {
+    require(none_negative(rows[i].values), i == 2 ? "pulls" : "seen", "at least 0");
+    require(i == 2 || std::all_of(rows[i].values.begin(), rows[i].values.end(),
+                                  [&](float v) { return v == std::floor(v) && v <= static_cast<float>(iterations); }),
+            "seen", "numbers of iterations of this run");
+  }
   const std::vector<Adam*> adams = optimisers();
+  const auto is_on = [&](std::size_t i) {
+    if (adams[i] == &positions_) return options_.position_rate > 0.0;
+    return adams[i] != &rotations_ || options_.rotation_rate > 0.0;
+  };
   std::vector<Adam::State> moments;
   for (std::size_t i = 0; i < adams.size(); ++i) {
     const std::string name = std::string("adam/") + optimiser_names[i];
     const auto steps = c.get<std::int64_t>(name + "/steps");
-    require(steps.size() == 1 && within(steps[0], 0, std::numeric_limits<int>::max()), name, "one number of steps");
-    const bool stepped = steps[0] > 0;
+    // An optimiser whose rate is zero never steps, the others step in every iteration.
+    const bool stepped = is_on(i) && iterations > 0;
+    require(steps.size() == 1 && steps[0] == (stepped ? iterations : 0), name + "/steps",
+            "the number of iterations, " + std::to_string(stepped ? iterations : 0));
     const auto row = static_cast<std::size_t>(adams[i]->stride());
-    moments.push_back(
-        {rows_of(name + "/first", row, stepped), rows_of(name + "/second", row, stepped), static_cast<long>(steps[0])});
+    const auto second = rows_of(name + "/second", row, stepped);
+    require(none_negative(second), name + "/second", "means of squares, which are not negative");
+    moments.push_back({rows_of(name + "/first", row, stepped), second, static_cast<long>(steps[0])});
   }
-  exposures_.set_state(exposures);
+  exposures_.set_state(exposures, iterations);
   gaussians_.upload(context_, g);
   for (const Rows& part : rows)
     if (!part.buffer->empty()) *part.buffer = compute::Buffer<float>(context_, part.values);
   for (std::size_t i = 0; i < adams.size(); ++i) adams[i]->set_state(moments[i]);
   psnr_db_ = psnr;
   depth_errors_ = depth_errors;
-  iteration_ = static_cast<int>(progress[0]);
+  iteration_ = iterations;
   round_ = -1;
   last_ = {iteration_, static_cast<int>(progress[1]), static_cast<int>(progress[2]), {}, last[4]};
   last_.value = {last[0], last[1], last[2], last[3]};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/core/se3.hpp"
 
@@ -60,6 +61,17 @@ TEST(SE3, AdjointMovesATwistThroughAPose) {
   const SE3 T = SE3::exp(random_twist(random, 1.0));
   const Vector6d xi = random_twist(random, 0.5);
   EXPECT_LT(distance(SE3::exp(T.adjoint() * xi), T * SE3::exp(xi) * T.inverse()), 1e-12);
+}
+
+TEST(SE3, OneRuleForQuaternionsThatAreWritten) {
+  for (const double length : {0.5, 0.99, 1.0, 2.0}) {
+    const Eigen::Quaterniond q = rotation_from_text(Eigen::Quaterniond(0.6 * length, 0.0, 0.8 * length, 0.0));
+    EXPECT_NEAR(q.w(), 0.6, 1e-12);
+    EXPECT_NEAR(q.y(), 0.8, 1e-12);
+  }
+  for (const double length : {0.0, 1e-300, 0.49, 2.01, 1e200, std::nan("")}) {
+    EXPECT_THROW(rotation_from_text(Eigen::Quaterniond(length, 0.0, 0.0, 0.0)), InputError) << length;
+  }
 }
 
 TEST(SE3, InterpolationMeetsItsEnds) {

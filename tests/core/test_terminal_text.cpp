@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/terminal_text.hpp"
 
@@ -57,6 +58,32 @@ TEST(TerminalText, ColumnsAreCountedAndCut) {
   EXPECT_EQ(cut_to_columns("東京駅", 5), "東京…");
   EXPECT_EQ(cut_to_columns("東京駅", 4), "東…");
   EXPECT_EQ(cut_to_columns("abc", 0), "");
+}
+
+TEST(TerminalText, QuotedTextIsCutAndTheRestOfTheLineStays) {
+  const std::string token(100000, 'x');
+  const std::string cut = token.substr(0, 97).append("...");
+  EXPECT_EQ(printable_line("f.txt: line 3: `" + token + "` is not a number"),
+            "f.txt: line 3: `" + cut + "` is not a number");
+  EXPECT_EQ(printable_line("--start: is \"" + token + "\", \"b\""), "--start: is \"" + cut + "\", \"b\"");
+  // 100 bytes stay; a character is not cut in two.
+  const std::string whole(100, 'y');
+  EXPECT_EQ(printable_line("\"" + whole + "\""), "\"" + whole + "\"");
+  std::string umlauts;
+  for (int i = 0; i < 60; ++i) umlauts += "\u00fc";
+  EXPECT_EQ(printable_line("`" + umlauts + "`"), "`" + umlauts.substr(0, 96) + "...`");
+  // Paths are not quoted, and may have 4096 bytes.
+  const std::string path = "/" + std::string(4094, 'p');
+  EXPECT_EQ(printable_line(path + ": is missing"), path + ": is missing");
+  EXPECT_EQ(printable_line("a lone \" mark"), "a lone \" mark");
+  const std::string line = printable_line("start " + token + " end");
+  EXPECT_LE(line.size(), 8100U);
+  EXPECT_TRUE(line.starts_with("start xxx") && line.ends_with("xxx end"));
+}
+
+TEST(InputError, AZeroByteDoesNotEndTheLine) {
+  const InputError error("f.txt", std::string("`a\0b` is not a number", 21));
+  EXPECT_STREQ(error.what(), "f.txt: `a\\x00b` is not a number");
 }
 
 TEST(Log, ShowsNoControlCharactersOfFiles) {

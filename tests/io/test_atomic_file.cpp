@@ -292,7 +292,7 @@ TEST(OutputFolder, RefusesAFileInItsPlace) {
 TEST(ReadFile, NamesWhatItCannotRead) {
   const TempFolder temp;
   EXPECT_EQ(error_of([&] { read_file(temp / "none"); }), temp / "none" + ": is missing");
-  EXPECT_EQ(error_of([&] { read_file(temp.path()); }), temp.path() + ": is not a regular file");
+  EXPECT_EQ(error_of([&] { read_file(temp.path()); }), temp.path() + ": is not a regular file but a folder");
   EXPECT_EQ(read_file(temp.put("empty", "")), "");
 }
 
@@ -301,9 +301,11 @@ TEST(ReadFile, ReadsRegularFilesOnly) {
   const TempFolder temp;
   const std::string fifo = temp / "fifo";
   ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
-  for (const std::string& file : {fifo, std::string("/dev/zero"), temp.path()}) {
-    EXPECT_EQ(error_of([&] { read_file(file); }), file + ": is not a regular file");
-    EXPECT_EQ(error_of([&] { require_regular_file(file); }), file + ": is not a regular file");
+  for (const auto& [file, kind] : {std::pair<std::string, std::string>{fifo, "a pipe (FIFO)"},
+                                   {"/dev/zero", "a device"},
+                                   {temp.path(), "a folder"}}) {
+    EXPECT_EQ(error_of([&, name = file] { read_file(name); }), file + ": is not a regular file but " + kind);
+    EXPECT_EQ(error_of([&, name = file] { require_regular_file(name); }), file + ": is not a regular file but " + kind);
   }
   EXPECT_EQ(error_of([&] { require_regular_file(temp / "none"); }), temp / "none" + ": is missing");
   const std::string file = temp.put("file", "text");

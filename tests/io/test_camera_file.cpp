@@ -61,13 +61,14 @@ TEST(CameraFile, NegativeFyIsASign) {
 TEST(CameraFile, RoundTripKeepsEveryBit) {
   const TempFolder temp;
   CameraFile file;
-  file.camera = {1200, 680, 481.2, 1.0 / 3.0, 0.1 + 0.2, -1e-17};
+  file.camera = {1200, 680, 481.2, 1000.0 / 3.0, 0.1 + 0.2, -1e-17};
   file.fy_sign = -1;
   file.depth_scale = 6553.5;
   file.distortion = {0.262383, -0.953104, -0.005358, 0.002628, 1.163314};
   file.fps = 29.97;
   file.gamma = 2.2;
   file.vignette = "a \"quoted\": # name\\.png";
+  temp.put(file.vignette, "");
   write_camera_file(temp / "camera.yaml", file);
   const CameraFile read = read_camera_file(temp / "camera.yaml");
   EXPECT_EQ(read.camera, file.camera);

@@ -148,7 +148,12 @@ TEST(CloudPcd, FaultsAreNamed) {
   EXPECT_EQ(header("COUNT", "1 1 1 1 1 1 9999999999"), "c.pcd: line 6: a count of 9999999999 is out of range");
   EXPECT_EQ(header("COUNT", "1 1 1 1 1 1 2"), "c.pcd: line 12: has 7 values, the header promises 8");
   EXPECT_EQ(header("POINTS", "many"), "c.pcd: line 10: `many` is not a whole number");
-  EXPECT_EQ(header("POINTS", "7"), "c.pcd: the header promises 7 points, the file holds 3");
+  EXPECT_EQ(header("POINTS", "7"), "c.pcd: header: POINTS is 7, WIDTH times HEIGHT is 3");
+  EXPECT_EQ(header("HEIGHT", "18446744073709551615"), "c.pcd: header: WIDTH is out of range");
+  // 2^63 times 2 is 0 in 64 bits.
+  EXPECT_EQ(fault("c.pcd", "VERSION .7\nFIELDS x y z\nWIDTH 9223372036854775808\nHEIGHT 2\nPOINTS 0\nDATA ascii\n"),
+            "c.pcd: header: WIDTH is out of range");
+  EXPECT_EQ(header("VIEWPOINT", "1\nPOINTS 3"), "c.pcd: line 11: POINTS comes twice");
   EXPECT_EQ(header("DATA", "zip"), "c.pcd: line 11: data `zip` is none of ascii, binary and binary_compressed");
   EXPECT_EQ(header("FIELDS", "x y w rgb normal_x normal_y normal_z"), "c.pcd: header: has no fields x y z");
   EXPECT_EQ(header("WIDTH", ""), "c.pcd: line 7: WIDTH has no value");
@@ -161,20 +166,21 @@ TEST(CloudPcd, FaultsAreNamed) {
 }
 
 TEST(CloudPcd, PromisesAreNotTrusted) {
-  std::string binary = binary_pcd();
-  const std::size_t at = binary.find("POINTS 3") + 7;
-  EXPECT_EQ(fault("c.pcd", binary.replace(at, 1, "99999999999999")),
+  const auto promising = [](std::string bytes, const std::string& promised) {
+    bytes.replace(bytes.find("POINTS 3") + 7, 1, promised);
+    return bytes.replace(bytes.find("WIDTH 3") + 6, 1, promised);
+  };
+  EXPECT_EQ(fault("c.pcd", promising(binary_pcd(), "99999999999999")),
             "c.pcd: the header promises 99999999999999 points, the file holds 3");
-  std::string compressed = compressed_pcd();
-  EXPECT_THAT(fault("c.pcd", compressed.replace(compressed.find("POINTS 3") + 7, 1, "4")),
+  EXPECT_EQ(fault("c.pcd", promising(ascii_pcd(), "7")), "c.pcd: the header promises 7 points, the file holds 3");
+  EXPECT_THAT(fault("c.pcd", promising(compressed_pcd(), "4")),
               HasSubstr("the header promises 4 points, the file holds 3"));
   // Sizes that the data do not bear out.
-  compressed = compressed_pcd();
+  const std::string compressed = compressed_pcd();
   const std::size_t sizes = compressed.find("binary_compressed\n") + 18;
   std::string lying = compressed;
   EXPECT_THAT(fault("c.pcd", lying.replace(sizes, 4, little(std::uint32_t{0xffffffff}))), HasSubstr("promises 42949"));
-  lying = compressed;
-  lying.replace(lying.find("POINTS 3") + 7, 1, "90000000");
+  lying = promising(compressed, "90000000");
   lying.replace(lying.find("binary_compressed\n") + 22, 4, little(std::uint32_t{0xffffffff}));
   EXPECT_EQ(fault("c.pcd", lying), "c.pcd: the compressed data are broken or cut off");
   // A reference to what was before the start.

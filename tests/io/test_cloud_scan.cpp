@@ -86,7 +86,7 @@ TEST(CloudScan, UnknownFilesAreRefused) {
   EXPECT_EQ(fault("c", ""), "c: is no point cloud of a known format (PLY, PCD, LAS, or text as .xyz .csv .txt)");
   EXPECT_EQ(error_of([] { scan_cloud("/nowhere.xyz", [](const CloudBatch&) {}); }), "/nowhere.xyz: is missing");
   EXPECT_EQ(error_of([&] { scan_cloud(temp.path(), [](const CloudBatch&) {}); }),
-            temp.path() + ": is not a regular file");
+            temp.path() + ": is not a regular file but a folder");
 }
 
 }  // namespace

@@ -193,7 +193,7 @@ TEST(ColmapImages, NamesEveryFault) {
   EXPECT_EQ(parse_colmap_images_text("i.txt", "1 1 0 0 0 0 0 0 7 a b.png").front().name, "a b.png");
   EXPECT_THAT(fault("\n"), HasSubstr("i.txt: lists no image"));
   EXPECT_THAT(fault("1 1 0 0 0 0 0 0 7\n\n"), HasSubstr("line 1: has no name"));
-  EXPECT_THAT(fault("1 0 0 0 0 0 0 0 7 a.png\n\n"), HasSubstr("line 1: its quaternion has no sensible length"));
+  EXPECT_THAT(fault("1 0 0 0 0 0 0 0 7 a.png\n\n"), HasSubstr("line 1: the quaternion has length 0, must be near 1"));
   EXPECT_THAT(fault("1 1 0 0 0 0 0 x 7 a.png\n\n"), HasSubstr("`x` is not a number"));
   EXPECT_THAT(fault("1 1 0 0 0 0 0 0 -7 a.png\n\n"), HasSubstr("`-7` is not the number of a camera"));
   EXPECT_THAT(fault(good + good), HasSubstr("image a.png: is listed twice"));

@@ -27,7 +27,7 @@ TEST(SimilarityFile, ReadsWhatItWrites) {
   EXPECT_THAT(fault("1 2 3 4 5 6 7 8 9"), HasSubstr("line 1: there are more than the 8 numbers"));
   EXPECT_THAT(fault("1 2 3 4 5 6 7 x"), HasSubstr("`x` is not a number"));
   EXPECT_THAT(fault("-1 0 0 0 0 0 0 1"), HasSubstr("the scale must be positive"));
-  EXPECT_THAT(fault("1 0 0 0 0 0 0 0"), HasSubstr("the quaternion has no sensible length"));
+  EXPECT_THAT(fault("1 0 0 0 0 0 0 0"), HasSubstr("the quaternion has length 0, must be near 1"));
 }
 
 TEST(SimilarityFile, ReadsPairs) {

@@ -169,7 +169,7 @@ TEST(Ply, MissingPartsAreNamed) {
   EXPECT_EQ(error_of([&] { ply.column<float>("face", "y"); }), "p.ply: has no element face");
   EXPECT_EQ(error_of([] { read_ply("/nowhere.ply"); }), "/nowhere.ply: is missing");
   const TempFolder temp;
-  EXPECT_EQ(error_of([&] { read_ply(temp.path()); }), temp.path() + ": is not a regular file");
+  EXPECT_EQ(error_of([&] { read_ply(temp.path()); }), temp.path() + ": is not a regular file but a folder");
 }
 
 TEST(Ply, SaysHowManyRowsATruncatedFileHolds) {

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <filesystem>
@@ -289,7 +290,21 @@ TEST(SequenceTum, ImagesAreNotDecodedBeforeTheirSizeIsKnownToBeRight) {
       temp.put("v.png", test::png_claiming(test::encoded(".png", cv::Mat1b(12, 16, uchar{200})), 9000, 9000));
   EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }), vignette + wrong);
   temp.put("camera.yaml", camera_yaml + "vignette: /dev/zero\n");
-  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }), "/dev/zero: is not a regular file");
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }),
+            temp / "camera.yaml" + ": vignette: /dev/zero: is not a regular file but a device");
+}
+
+TEST(SequenceOpen, SaysWhatStandsInThePlaceOfAnImage) {
+  const TempFolder temp;
+  put_tum(temp);
+  const std::string image = temp / "rgb/10.100.png";
+  std::filesystem::remove(image);
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }), image + ": is missing");
+  ASSERT_EQ(mkfifo(image.c_str(), 0600), 0);
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }), image + ": is not a regular file but a pipe (FIFO)");
+  std::filesystem::remove(image);
+  std::filesystem::create_directory(image);
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }), image + ": is not a regular file but a folder");
 }
 
 TEST(SequenceOpen, LimitsThePixelsOfAnImage) {

@@ -119,7 +119,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"1 0 0 0 0 0 0 1e999\n", "t.txt: line 1: `1e999` is not a number"},
                     Fault{"1 0 0 0 0 0 0 1\n2 0 0 0 0 0 1\n", "t.txt: line 2: has 7 values, the lines before have 8"},
                     Fault{"1 0 0 0 0 0 1\n", "t.txt: line 1: has 7 values; a pose has 8 (TUM), 12 (KITTI) or 16"},
-                    Fault{"1 0 0 0 0 0 0 0\n", "t.txt: line 1: the quaternion has length zero"},
+                    Fault{"1 0 0 0 0 0 0 0\n", "t.txt: line 1: the quaternion has length 0, must be near 1 (0.5..2)"},
+                    Fault{"1 0 0 0 0 0 0 3\n", "t.txt: line 1: the quaternion has length 3, must be near 1 (0.5..2)"},
 
                     Fault{"2 0 0 0 0 0 0 1\n\n1 0 0 0 0 0 0 1\n", "t.txt: line 3: time 1 is before 2"},
                     Fault{"1 0 0 0 0 2 0 0 0 0 1 0\n", "t.txt: line 1: the matrix is no rotation"},

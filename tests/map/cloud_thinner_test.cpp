@@ -92,9 +92,47 @@ TEST(CloudThinner, ColoursAndNormalsAreAllOrNothing) {
   EXPECT_FALSE(thinner.finish("c").has_normals());
 }
 
-TEST(CloudThinner, DropsWhatNoVoxelHolds) {
+// Numbers of voxels that no integer holds: every place is a voxel of its own, or it is said that there are too many.
+TEST(CloudThinner, KeepsEveryPointOfAnyVoxel) {
+  const CloudBatch batch = random_batch(1000, 4);
+  for (const double voxel : {1e-9, 1e-10, 1e-15, 1e-19, 1e-30, 1e-300}) {
+    CloudThinner thinner(voxel);
+    thinner.add(batch);
+    EXPECT_EQ(thinner.points(), 1000U) << voxel;
+    EXPECT_EQ(thinner.voxels(), 1000U) << voxel;
+    PointCloud cloud;
+    for (const Eigen::Vector3d& point : batch.points) cloud.points.push_back(point.cast<float>());
+    EXPECT_EQ(voxel_downsample(cloud, voxel).size(), 1000U) << voxel;
+  }
+  // Equal places share a voxel however small, on both sides of zero.
+  CloudBatch twins;
+  for (const double x : {1.0, -1.0, 0.0, -0.0, 1e9}) {
+    twins.points.emplace_back(x, x, x);
+    twins.points.emplace_back(x, x, x);
+  }
+  for (const double voxel : {1e-12, 1.0, 1e30}) {
+    CloudThinner thinner(voxel);
+    thinner.add(twins);
+    EXPECT_EQ(thinner.points(), 10U);
+    EXPECT_EQ(thinner.voxels(), voxel < 1e30 ? 4U : 2U) << voxel;
+  }
+}
+
+TEST(CloudThinner, TellsAVoxelThatIsTooSmall) {
+  CloudThinner thinner(1e-310);
   CloudBatch batch;
-  batch.points = {{1e10, 0, 0}, {1, 0, 0}};
+  batch.points = {{0, 0, 1e3}};
+  try {
+    thinner.add(batch);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "voxel: is too small: 1e-310 m for a point at 0 0 1e+03");
+  }
+}
+
+TEST(CloudThinner, DropsWhatIsNotFinite) {
+  CloudBatch batch;
+  batch.points = {{std::nan(""), 0, 0}, {1, 0, 0}};
   CloudThinner thinner(0.5);
   thinner.add(batch);
   EXPECT_EQ(thinner.points(), 1U);

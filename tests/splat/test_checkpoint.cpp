@@ -147,6 +147,25 @@ TEST(Resume, AbsurdNumbersAreRefused) {
   refused("adam/sh/steps", Whole{-1});
   refused("adam/sh/first", Real(3, 0.0F));
   refused("adam/positions/second", Real{});
+  refused("adam/positions/steps", Whole{0});
+  refused("adam/log_scales/steps", Whole{2});
+  refused("adam/rotations/steps", Whole{1LL << 31});
+  for (const char* name : {"positions", "log_scales", "rotations", "opacity_logits", "sh"}) {
+    const std::string entry = std::string("adam/") + name + "/second";
+    auto second = good.get<float>(entry);
+    second.back() = -1e-9F;
+    refused(entry, second);
+  }
+  auto exposures = good.get<double>("exposures");
+  exposures.at(12) = -1.0;  // of the first view: 6 settings, 6 means, 6 means of squares, steps
+  refused("exposures", exposures);
+  exposures.at(12) = 0.0;
+  exposures.at(18) += 1.0;
+  refused("exposures", exposures);
+  exposures.at(18) = 0.5;
+  refused("exposures", exposures);
+  refused("depth_errors", std::vector<double>{-0.5, -1.0});
+  refused("guard", std::vector<double>{7.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0});
   refused("gaussians/positions", Real(3 * initial.size(), std::numeric_limits<float>::quiet_NaN()));
   refused("gaussians/opacity_logits", Real{});
   refused("gaussians/sh", Real(1, 0.0F));

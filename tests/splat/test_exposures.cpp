@@ -65,7 +65,7 @@ TEST(Exposures, GradientPassesThroughTheGain) {
   state[0] = 2.0;
   state[1] = 0.5;
   state[3] = 0.25;
-  exposures.set_state(state);
+  exposures.set_state(state, 0);
   const std::vector<float> image = random_image(3);
   compute::Buffer<float> gradient(context, std::vector<float>(3 * plane, 1.0F));
   exposures.backward(0, {context, image}, width, height, gradient);
@@ -73,7 +73,7 @@ TEST(Exposures, GradientPassesThroughTheGain) {
   EXPECT_EQ(slopes[0], 2.0F);
   EXPECT_EQ(slopes[plane], 0.5F);
   EXPECT_EQ(slopes[2 * plane], 1.0F);
-  EXPECT_THROW(exposures.set_state({1.0}), InputError);
+  EXPECT_THROW(exposures.set_state({1.0}, 0), InputError);
 }
 
 }  // namespace

@@ -9,14 +9,17 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
 #include "odosplat/splat/map_file.hpp"
+#include "odosplat/splat/trainer_options.hpp"
 
 namespace odosplat {
 namespace {
@@ -241,6 +244,110 @@ TEST_F(MapFile, AFewBrokenRowsAreLeftOutAndNamed) {
   for (std::size_t i = 0; i < 17; ++i) EXPECT_EQ(g.positions[3 * i], 1.0F);
   rows[0] = rows[3];
   EXPECT_EQ(parse_fault(ascii_map(rows)), "m.ply: Gaussian 0: y is not finite; 3 of 20 Gaussians are broken");
+}
+
+TEST_F(MapFile, WhatNoDeviceCanDrawIsLeftOutAndNamed) {
+  const std::vector<std::pair<std::string, std::string>> broken = {
+      {"1 2 3 0.1 0.2 0.3 2 -4 -5 -6 0 0 0 0", "its rotation has length 0"},
+      {"1 2 3 0.1 0.2 0.3 2 -4 -5 -6 1e-30 0 1e-30 0", "its rotation has length 0"},
+      {"1 2 3 0.1 0.2 0.3 2 -4 -5 -6 1e30 0 0 0", "the length of its rotation is 1e+30, beyond 1e+15"},
+      {"1 2 3 0.1 0.2 0.3 2 -4 80 -6 1 0 0 0", "its scale [ln m] is 80, beyond 13.8"},
+      {"1 2 -1e38 0.1 0.2 0.3 2 -4 -5 -6 1 0 0 0", "its position [m] is -1e+38, beyond 1e+07"},
+      {"1 2 3 0.1 3e38 0.3 2 -4 -5 -6 1 0 0 0", "its colour is 3e+38, beyond 1e+04"},
+  };
+  for (const auto& [row, wrong] : broken) {
+    std::vector<std::string> rows(20, good_row);
+    rows[5] = row;
+    testing::internal::CaptureStderr();
+    const Gaussians g = parse_map("m.ply", ascii_map(rows));
+    EXPECT_THAT(testing::internal::GetCapturedStderr(),
+                HasSubstr("m.ply: 1 of 20 Gaussians are broken and left out (Gaussian 5: " + wrong + ")"));
+    EXPECT_EQ(g.size(), 19U);
+    EXPECT_EQ(parse_fault(ascii_map({row})), "m.ply: Gaussian 0: " + wrong);
+  }
+  // Opacities and sizes have no such limits.
+  for (const char* row : {"1 2 3 0.1 0.2 0.3 1e30 -4 -5 -6 1 0 0 0", "1 2 3 0.1 0.2 0.3 -1e30 -4 -5 -6 1 0 0 0",
+                          "1 2 3 0.1 0.2 0.3 2 -1e30 -1e30 -1e30 0 0 -9 0"}) {
+    EXPECT_EQ(parse_fault(ascii_map({row})), "") << row;
+  }
+}
+
+// The limits are those of the kernels: what they pass is drawn with finite numbers, next to what is beyond.
+TEST_F(MapFile, WhatIsWithinTheLimitsIsDrawn) {
+  const auto context = compute::Context::open();
+  const Camera camera{33, 33, 40.0, 40.0, 16.0, 16.0};
+  const std::vector<std::string> rows = {
+      "0 0 4 0.1 0.2 0.3 20 -1 -1 -1 1e-15 0 0 0",     "0 0 4 0.1 0.2 0.3 20 -1 -1 -1 0 9e14 0 0",
+      "0 0 2e4 0.1 0.2 0.3 20 13.8 13.8 13.8 1 0 0 0", "0 0 4 0.1 0.2 0.3 20 -1e30 -1e30 -1e30 1 0 0 0",
+      "0 0 4 9999 0.2 0.3 20 -1 -1 -1 1 0 0 0",
+  };
+  for (const std::string& row : rows) {
+    GaussianView view(context, parse_map("m.ply", ascii_map({row})), {});
+    ViewRequest request;
+    request.color = true;
+    request.alpha = true;
+    const ViewImages image = view.render(camera, SE3(), request);
+    EXPECT_GT(image.alpha(16, 16), 0.5F) << row;
+    EXPECT_GT(image.depth(16, 16), 1.0F) << row;
+    for (const cv::Vec3f& color : image.color)
+      for (int c = 0; c < 3; ++c) EXPECT_TRUE(std::isfinite(color[c])) << row;
+  }
+}
+
+TEST_F(MapFile, FieldsOfTheHeaderAreChecked) {
+  const auto header_fault = [&](const std::vector<std::string>& comments, bool ours = true) {
+    std::string text = ascii_map({good_row});
+    std::string lines = ours ? "comment odosplat map, format 1\n" : "";
+    for (const std::string& comment : comments) lines += "comment " + comment + "\n";
+    text.insert(text.find("element"), lines);
+    write_text("m.ply", text);
+    const std::string said = fault("m.ply");
+    // Whoever reads the header alone is told the same.
+    for (const auto& read : std::vector<std::function<void()>>{
+             [&] { read_sigma_model(path("m.ply")); }, [&] { read_blend_order(path("m.ply")); },
+             [&] { read_map_quality(path("m.ply")); }, [&] { read_map_notes(path("m.ply")); }}) {
+      try {
+        read();
+        EXPECT_EQ(said, "");
+      } catch (const InputError& error) {
+        EXPECT_EQ(error.what(), said);
+      }
+    }
+    return said.empty() ? said : said.substr(path("m.ply").size());
+  };
+  EXPECT_EQ(header_fault({"blend_order distance", "dilation 0.3", "seed 42", "sigma_spread 5"}), "");
+  EXPECT_EQ(header_fault({"odosplat map, format 2"}, false),
+            ": header: format: is `2`, this program reads format 1: another version wrote it");
+  EXPECT_EQ(header_fault({"blend_order depth", "blend_order distance"}), ": header: blend_order: comes twice");
+  EXPECT_EQ(header_fault({"dilation nan"}), ": header: dilation: must be a number in 0.01..100, is `nan`");
+  EXPECT_EQ(header_fault({"sigma_spread 1e30"}), ": header: sigma_spread: must be a number in 0..100, is `1e30`");
+  EXPECT_EQ(header_fault({"sigma_slope_px 1 2"}), ": header: sigma_slope_px: must be a number in 0..100, is `1 2`");
+  EXPECT_EQ(header_fault({"quality_images -5"}),
+            ": header: quality_images: must be a whole number of at least 0, is `-5`");
+  EXPECT_EQ(header_fault({"quality_unseen_share 7"}),
+            ": header: quality_unseen_share: must be a number in 0..1, is `7`");
+  EXPECT_EQ(header_fault({"iterations_done -1"}),
+            ": header: iterations_done: must be a whole number of at least 0, is `-1`");
+  EXPECT_EQ(header_fault({"seed 0.5"}), ": header: seed: must be a whole number of at least 0, is `0.5`");
+  // Other programs' comments may begin with the same words, and say what they like.
+  EXPECT_EQ(header_fault({"iterations were many", "iterations 3"}, false), "");
+  EXPECT_EQ(header_fault({"iterations were many", "made by hand"}, false), "");
+  EXPECT_EQ(read_map_notes(path("m.ply")), (std::vector<std::string>{"made by hand"}));
+  EXPECT_EQ(header_fault({"blend_order depth", "blend_order depth"}, false), ": header: blend_order: comes twice");
+}
+
+TEST_F(MapFile, EverySettingOfTrainingIsRead) {
+  for (const char* preset : {"default", "paper"}) {
+    TrainerOptions options = TrainerOptions::preset(preset, 10);
+    options.rasterizer.dilation = 0.1F;
+    options.rasterizer.compensated = true;
+    write_map(path("m.ply"), random_gaussians(2, 0), options.describe());
+    EXPECT_EQ(fault("m.ply"), "") << preset;
+    const GaussianViewOptions view = view_options(path("m.ply"));
+    EXPECT_EQ(view.rasterizer.dilation, 0.1F);
+    EXPECT_TRUE(view.rasterizer.compensated);
+    EXPECT_EQ(view.rasterizer.order, options.rasterizer.order);
+  }
 }
 
 TEST_F(MapFile, TwoScalesAreFlatDiscs) {

@@ -120,7 +120,13 @@ TEST(SplatFile, ExtremeGaussiansStayInRange) {
     for (std::size_t a = 0; a < 4; ++a) g.rotations[4 * i + a] = i < 2 ? value : 0.0F;
     g.opacity_logits[i] = i < 2 ? value : -value;
   }
-  EXPECT_EQ(parse_splat("m.splat", splat_bytes(g)).size(), 4U);
+  const std::string bytes = splat_bytes(g);
+  ASSERT_EQ(bytes.size(), 4U * 32U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    float values[6];
+    std::memcpy(values, bytes.data() + 32 * i, sizeof(values));
+    for (const float value : values) EXPECT_TRUE(std::isfinite(value)) << i;
+  }
 }
 
 TEST(SplatFile, FaultsAreNamed) {
@@ -130,11 +136,21 @@ TEST(SplatFile, FaultsAreNamed) {
               "m.splat: has " + std::to_string(32 + n) + " bytes, no multiple of 32: cut off, or no .splat");
   }
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const std::vector<int> bytes(8, 128);
+  const std::vector<int> bytes{128, 128, 128, 128, 255, 128, 128, 128};
   EXPECT_EQ(fault(one + record({nan, 0, 0, 1, 1, 1}, bytes)), "m.splat: Gaussian 1: its position is not finite");
   EXPECT_EQ(fault(record({0, 0, 0, 1, 1, -1}, bytes)), "m.splat: Gaussian 0: its scale is negative or not finite");
   EXPECT_EQ(fault(record({0, 0, 0, 1, nan, 1}, bytes)), "m.splat: Gaussian 0: its scale is negative or not finite");
   EXPECT_EQ(parse_splat("m.splat", record({0, 0, 0, 1, 1, 0}, bytes)).log_scales[2], -23.0F);
+}
+
+TEST(SplatFile, WhatCannotBeDrawnIsBroken) {
+  const std::vector<int> upright{128, 128, 128, 128, 255, 128, 128, 128};
+  EXPECT_EQ(fault(record({0, 0, 0, 1, 1, 1}, std::vector<int>(8, 128))),
+            "m.splat: Gaussian 0: its rotation has length 0");
+  EXPECT_EQ(fault(record({0, 1e38F, 0, 1, 1, 1}, upright)),
+            "m.splat: Gaussian 0: its position [m] is 1e+38, beyond 1e+07");
+  EXPECT_EQ(fault(record({0, 0, 0, 1, 5.5e34F, 1}, upright)),
+            "m.splat: Gaussian 0: its scale [ln m] is 80, beyond 13.8");
 }
 
 TEST(SplatFile, AFewBrokenRowsAreLeftOut) {
