@@ -30,7 +30,7 @@ PointCloud read_thinned(const std::vector<std::string>& files, double voxel, con
     names += (names.empty() ? "" : ", ") + file;
   }
   PointCloud cloud = thinner.finish(names);
-  if (cloud.size() == 0) throw InputError(names, "all points are too far from the origin for such small voxels");
+  if (cloud.size() == 0) throw InputError(names, "holds no point");
   log_info(std::to_string(thinner.points()) + " points thinned to " + std::to_string(cloud.size()));
   return cloud;
 }

@@ -63,6 +63,8 @@ Opener opener_of(const CloudInput& input) {
   throw InputError(input.name, "is no point cloud of a known format (PLY, PCD, LAS, or text as .xyz .csv .txt)");
 }
 
+constexpr double farthest = 1e15;  // [m] beyond, squares of distances come near the end of single precision
+
 // Colours of real numbers may overshoot a little.
 bool exceeds(float value, float full) { return value > full * 1.001F; }
 
@@ -95,6 +97,10 @@ class Cleaner {
     batch_.normals.clear();
     for (std::size_t i = 0; i < rows.points.size(); ++i, ++seen_) {
       if (!rows.points[i].allFinite()) continue;
+      if (!(rows.points[i].cwiseAbs().maxCoeff() < farthest)) {
+        any_far_ = true;
+        continue;
+      }
       batch_.points.push_back(rows.points[i]);
       if (full_color_ > 0.0F && !rows.colors.empty()) batch_.colors.push_back(color(rows.colors[i]));
       if (!rows.normals.empty()) batch_.normals.push_back(normal(rows.normals[i]));
@@ -107,7 +113,7 @@ class Cleaner {
     if (kept_ == 0) throw InputError(name_, "holds no point");
     if (kept_ == seen_) return;
     log_warning(name_ + ": " + std::to_string(seen_ - kept_) + " of " + std::to_string(seen_) +
-                " points are not finite and left out");
+                " points are not finite " + (any_far_ ? "or 1e15 m and more from the origin, " : "") + "and left out");
   }
 
  private:
@@ -129,6 +135,7 @@ class Cleaner {
   float full_color_;
   std::size_t seen_ = 0;
   std::size_t kept_ = 0;
+  bool any_far_ = false;
   CloudBatch batch_;
 };
 

@@ -34,12 +34,12 @@ using CloudSink = std::function<void(const CloudBatch&)>;
 ///         else 0..255, or 0..65535 if any is above 255 and the columns have names.
 /// Names of properties, fields and columns may be in letters of either size. A byte-order mark before a text or a
 /// header is passed over. Formats of Gaussians and of other clouds that are not read are refused by their names. Points
-/// that are not finite are left out with one warning. Normals are scaled to unit length; one that is zero or not finite
-/// is handed on as zero. Telling the range of colours may take a second pass over the file. Throws InputError (file,
-/// place, fault): missing or unknown file, what the format forbids, more points promised than there are, counts of one
-/// header that contradict each other, a colour that is negative or not finite, no finite point at all. A file that
-/// holds more rows than its header promises is read as far as that (text: to its end), with one warning of both
-/// numbers.
+/// that are not finite, or 1e15 m and more from the origin, are left out with one warning. Normals are scaled to unit
+/// length; one that is zero or not finite is handed on as zero. Telling the range of colours may take a second pass
+/// over the file. Throws InputError (file, place, fault): missing or unknown file, what the format forbids, more points
+/// promised than there are, counts of one header that contradict each other, a colour that is negative or not finite,
+/// no finite point at all. A file that holds more rows than its header promises is read as far as that (text: to its
+/// end), with one warning of both numbers.
 void scan_cloud(const std::string& path, const CloudSink& sink);
 
 /// The same from memory; `name` stands for the file, its extension included.

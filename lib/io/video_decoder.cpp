@@ -146,14 +146,18 @@ struct VideoDecoder::State {
 
   void note(const AVPacket& taken) {
     const std::int64_t start = taken.pts != AV_NOPTS_VALUE && !is_avi ? taken.pts : taken.dts;
-    if (start != AV_NOPTS_VALUE) end = std::max(end, start + taken.duration);
+    // An AVI's clock goes on by one for each image and repetition, which has no duration of its own.
+    const std::int64_t duration = std::max<std::int64_t>(taken.duration, is_avi ? 1 : 0);
+    if (start != AV_NOPTS_VALUE) end = std::max(end, start + duration);
     ++packets;
   }
 
   // entries: images of each stream by the index, before any packet is read: later it holds what was found.
   void note_promises(const std::vector<long>& entries) {
     is_avi = std::string_view(format->iformat->name) == "avi";
-    indexed = entries.at(static_cast<std::size_t>(stream));
+    // Some formats (FLV, MPEG) show their streams with the packets alone.
+    const auto at = static_cast<std::size_t>(stream);
+    indexed = at < entries.size() ? entries[at] : 0;
     if (is_avi) declared = static_cast<long>(video().nb_frames);
     note_length();
   }

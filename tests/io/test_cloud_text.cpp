@@ -120,6 +120,13 @@ TEST(CloudText, FaultsNameTheLine) {
   EXPECT_EQ(fault(std::string(70000, '1')), "c.txt: line 1: is longer than a line of text can be");
 }
 
+TEST(CloudText, PointsBeyondSinglePrecisionAreLeftOutAndCounted) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(read("1 2 3\n1 1e30 3\n-1e38 2 3\n").size(), 1U);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              HasSubstr("2 of 3 points are not finite or 1e15 m and more from the origin, and left out"));
+}
+
 TEST(CloudText, PointsThatAreNotFiniteAreLeftOut) {
   const PointCloud cloud = read("1 2 3 4 5 6\nnan 2 3 4 5 6\n7 8 9 250 5 6\n");
   ASSERT_EQ(cloud.size(), 2U);

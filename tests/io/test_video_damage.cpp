@@ -113,6 +113,13 @@ TEST(VideoDamage, MatroskaEndsBeforeItsHeaderSays) {
   const Said half = read(temp.put("half.mkv", mkv.substr(0, 6 * mkv.size() / 10)));
   EXPECT_LT(half.size, frames);
   EXPECT_THAT(half.warnings, HasSubstr("before its header says"));
+  // Formats that show their streams late, or have no index.
+  for (const char* name : {"b.flv", "b.ts", "b.mov", "b.webm"}) {
+    const std::string kind = std::string(name).substr(2);
+    const std::string encoder = kind == "webm" ? "libvpx" : kind == "flv" ? "flv" : "mpeg2video -r 25";
+    ASSERT_EQ(std::system((to_mkv + "-c:v " + encoder + " '" + temp / name + "'").c_str()), 0) << name;
+    EXPECT_EQ(read(temp / name).warnings, "") << name;
+  }
   // Another stream may be longer, and a cut by edit list hides images on purpose.
   ASSERT_EQ(std::system((to_mkv + "-f lavfi -i sine=duration=3 -c:v copy '" + temp / "sound.mkv" + "'").c_str()), 0);
   EXPECT_EQ(read(temp / "sound.mkv").warnings, "");

@@ -78,7 +78,9 @@ TEST(VideoTimes, AreThePresentationStampsOfTheContainer) {
                            Clip{"v.webm", "-enc_time_base 1/1000 -c:v libvpx-vp9 -crf 10 -b:v 0"}}) {
     SCOPED_TRACE(clip.name);
     const TempFolder temp;
+    testing::internal::CaptureStderr();
     const VideoReader reader(make_video(temp, clip.name, uneven_ms, clip.encoder));
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // nothing is missing
     ASSERT_EQ(reader.size(), uneven_ms.size());
     ASSERT_EQ(reader.times().size(), uneven_ms.size());
     for (std::size_t k = 0; k < uneven_ms.size(); ++k) EXPECT_NEAR(reader.times()[k], 0.001 * uneven_ms[k], 1e-3) << k;
