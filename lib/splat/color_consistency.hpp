@@ -16,6 +16,7 @@ namespace odosplat {
 /// What may be wrong with poses, camera and cloud; the default: nothing.
 struct GeometryHypothesis {
   bool inverted = false;                             // the poses are T_camera_world
+  double unit = 1.0;                                 // times that the cloud's coordinates are larger than the poses'
   double focal = 1.0;                                // times the focal length that was given
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // [m, world] that the cloud lies off the poses' world
 
@@ -70,8 +71,8 @@ struct GeometryDoubt {
   double instead = 1.0;
 };
 
-/// The best among inverted poses, focal lengths from 0.75 to 1.35 of the given one, and offsets up to 0.6 m, if it is
-/// clearly better; none otherwise.
+/// The best among inverted poses, other units of length (length_units), focal lengths from 0.75 to 1.35 of the given
+/// one, and offsets up to 0.6 m, if it is clearly better; none otherwise.
 std::optional<GeometryDoubt> geometry_doubt(const ColorConsistency& consistency);
 
 }  // namespace odosplat

@@ -219,7 +219,11 @@ TEST_F(Chain, CheckNamesTheFault) {
   EXPECT_THAT(must_run({"check", sequence_, "--gap", "10"}).out, testing::Not(HasSubstr("the data want")));
   write_text(sequence_ + "/camera.yaml",
              "width: 160\nheight: 120\nfx: 130\nfy: -130\ncx: 79.5\ncy: 59.5\ndepth_scale: 5000\n");
-  EXPECT_THAT(must_run({"check", sequence_, "--gap", "10"}).out, HasSubstr("fy"));
+  const RunResult flipped = run_odosplat({"check", sequence_, "--gap", "10"});
+  EXPECT_THAT(flipped.out, HasSubstr("fy"));
+  EXPECT_EQ(flipped.status, 3);
+  EXPECT_THAT(flipped.err, HasSubstr("do not agree"));
+  EXPECT_EQ(run_odosplat({"check", sequence_, "--gap", "10", "--keep-going"}).status, 0);
 }
 
 TEST_F(Chain, ChecksWithACloudInPlaceOfDepth) {
@@ -240,7 +244,8 @@ TEST_F(Chain, ChecksWithACloudInPlaceOfDepth) {
   Trajectory truth = read_trajectory(sequence_ + "/groundtruth.txt");
   for (StampedPose& pose : truth) pose.T_world_camera = pose.T_world_camera.inverse();
   write_trajectory(sequence_ + "/groundtruth.txt", truth);
-  const RunResult inverted = must_run({"check", sequence_, "--cloud", cloud_, "--json", report});
+  const RunResult inverted = run_odosplat({"check", sequence_, "--cloud", cloud_, "--json", report});
+  EXPECT_EQ(inverted.status, 3) << inverted.err;
   EXPECT_THAT(inverted.out, HasSubstr("poses: the images want inverted, the files say as stored"));
   json = nlohmann::json::parse(read_text(report));
   EXPECT_EQ(json["poses_inverted"], true);
