@@ -23,6 +23,7 @@
 #include "stages.hpp"
 #include "train_start.hpp"
 #include "train_views.hpp"
+#include "training_frames.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -130,6 +131,9 @@ Finished finish(const TrainJob& job, const compute::Context& device, const Train
   std::vector<SE3> poses;
   for (int i = 0; i < views.count(); ++i) poses.push_back(views.T_world_camera(i));
   for (const std::string& line : place_lines(thinned_places(poses))) f.notes.push_back(line);
+  const FrameRange range = job.frames.empty() ? FrameRange() : parse_frames(job.frames);
+  for (const Sequence& sequence : views.sequences())
+    f.notes.push_back(training_frames_line(sequence, job.every, range));
   if (prepared.surface == nullptr) return f;
   stages.next("how sure the map's depth is");
   SigmaCalibrationOptions options;

@@ -168,6 +168,45 @@ TEST_F(Chain, LooksUpSingleImages) {
   for (const auto& row : report["rows"]) EXPECT_NE(row["frame"].get<int>() % 5, 0);
 }
 
+TEST_F(Chain, LooksUpImagesWhoseTruePosesNobodyKnows) {
+  const Trajectory truth = read_trajectory(sequence_ + "/groundtruth.txt");
+  fs::remove(sequence_ + "/groundtruth.txt");
+  const std::string json = scratch_ / "found.json";
+  const std::string poses = scratch_ / "found.txt";
+  const RunResult result = must_run({"relocalise", sequence_, "--map", map_, "--frames", "11:14", "--skip-every",
+                                     "none", "--json", json, "--out", poses});
+  EXPECT_THAT(result.out, HasSubstr("3 views: 3 found, - of them within"));
+  const auto report = nlohmann::json::parse(read_text(json));
+  EXPECT_TRUE(report["within_2cm_1deg"].is_null());
+  EXPECT_TRUE(report["beyond_10cm"].is_null());
+  const Trajectory found = read_trajectory(poses);
+  ASSERT_EQ(found.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(found[k].time, truth[11 + k].time, 1e-6);
+    EXPECT_LT((found[k].T_world_camera.translation() - truth[11 + k].T_world_camera.translation()).norm(), 0.02);
+  }
+  for (const auto& row : report["rows"]) {
+    const auto k = row["frame"].get<std::size_t>();
+    EXPECT_TRUE(row["error_m"].is_null());
+    EXPECT_NEAR(row["T_world_camera"][0], truth[k].T_world_camera.translation().x(), 0.02);
+    EXPECT_NEAR(row["time"], truth[k].time, 1e-6);
+    EXPECT_GT(row["score"], 0.0);
+  }
+}
+
+TEST_F(Chain, LeavesOutTheFramesThatTheMapNames) {
+  const std::string json = scratch_ / "depth.json";
+  const RunResult named =
+      must_run({"eval-depth", sequence_, "--map", map_, "--frames", "0:10", "--every", "1", "--json", json});
+  EXPECT_THAT(named.err, HasSubstr("left out are the frames that the map was made from: 0, 5, ..."));
+  EXPECT_EQ(nlohmann::json::parse(read_text(json))["frames"], 8);  // all but 0 and 5
+  fs::rename(sequence_, scratch_ / "another");
+  const RunResult other =
+      must_run({"eval-depth", scratch_ / "another", "--map", map_, "--frames", "0:10", "--every", "1", "--json", json});
+  EXPECT_THAT(other.err, HasSubstr("no frame is left out: the map was made from"));
+  EXPECT_EQ(nlohmann::json::parse(read_text(json))["frames"], 10);
+}
+
 TEST_F(Chain, ThreadsChangeNoBit) {
   train(scratch_ / "map1.ply", "1");
   EXPECT_EQ(read_text(map_), read_text(scratch_ / "map1.ply"));
