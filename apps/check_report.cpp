@@ -2,7 +2,6 @@
 // Copyright 2026 The odosplat authors
 #include "check_report.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "json_text.hpp"
@@ -90,10 +89,7 @@ const char* word_of(CheckAnswer answer) {
 CheckAnswer answer_of(const CheckResults& results) {
   bool undecided = false;
   if (results.conventions) {
-    const ConventionReport& report = *results.conventions;
-    const bool found = std::any_of(report.findings.begin(), report.findings.end(),
-                                   [](const ConventionFinding& f) { return !f.as_declared; });
-    if (!report.believable || found) return CheckAnswer::differ;
+    if (!results.conventions->as_declared) return CheckAnswer::differ;
   }
   if (results.registration && results.registration->registered == false) return CheckAnswer::differ;
   if (results.cloud) {

@@ -256,6 +256,15 @@ TEST_F(Chain, RendersAndDraws) {
 
 TEST_F(Chain, CheckNamesTheFault) {
   EXPECT_THAT(must_run({"check", sequence_, "--gap", "10"}).out, testing::Not(HasSubstr("the data want")));
+  const std::string camera = "width: 160\nheight: 120\nfx: 130\nfy: 130\ncx: 79.5\ncy: 59.5\n";
+  write_text(sequence_ + "/camera.yaml", camera);
+  const RunResult assumed = must_run({"check", sequence_, "--gap", "10"});
+  const std::string said = "names no depth_scale: 5000 units a metre are assumed";
+  ASSERT_THAT(assumed.err, HasSubstr(said));
+  EXPECT_EQ(assumed.err.find(said), assumed.err.rfind(said));
+  write_text(sequence_ + "/camera.yaml", camera + "depth_scale: 1000\n");
+  EXPECT_THAT(run_odosplat({"check", sequence_, "--gap", "10"}).out,
+              HasSubstr("depth scale: the data want 5000, the file says 1000 (depths are read 5 times too large)"));
   write_text(sequence_ + "/camera.yaml",
              "width: 160\nheight: 120\nfx: 130\nfy: -130\ncx: 79.5\ncy: 59.5\ndepth_scale: 5000\n");
   const RunResult flipped = run_odosplat({"check", sequence_, "--gap", "10"});
