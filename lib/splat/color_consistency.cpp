@@ -194,6 +194,8 @@ std::optional<GeometryDoubt> geometry_doubt(const ColorConsistency& consistency)
     best.hypothesis = moved;
     best.instead = least;
   }
+  // What fits a little better than something that does not fit at all is no cause.
+  if (best.instead > most_unexplained) return std::nullopt;
   if (!(best.instead < clearly_better * best.as_given) || best.as_given - best.instead < least_gain)
     return std::nullopt;
   return best;

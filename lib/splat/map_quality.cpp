@@ -16,8 +16,6 @@ namespace {
 // Chosen, not fitted: a real kitchen (7-Scenes, registered) reaches 27.9 dB.
 constexpr double least_psnr_db = 20.0;
 constexpr double most_depth_share = 0.03;
-// Three rooms: 0.06, 0.09 and 0.13; one with another camera's focal length and depth: 0.34.
-constexpr double most_inconsistency = 0.25;
 // Images that have nothing in common at the points: another place or wrong poses, rather than a camera that is off.
 constexpr double no_relation = 0.7;
 constexpr int least_images = 3;
@@ -147,12 +145,14 @@ std::string likely_cause(const MapQuality& q, const Judgement& j, const std::opt
   } else if (j.inconsistent) {
     add("a camera file that is not this camera's, depth that is not registered to colour, or wrong poses");
   }
+  // A short training does not make images disagree with a cloud.
+  const bool of_training = j.unlike && !j.inconsistent && !j.unseen;
   const bool cut_short = t.iterations >= 0 && t.iterations < short_share * t.usual_iterations;
-  if (j.unlike && cut_short) {
+  if (of_training && cut_short) {
     add("training stopped after " + std::to_string(t.iterations) + " of the preset's " +
         std::to_string(t.usual_iterations) + " iterations");
   }
-  if (j.unlike && t.budget > 0 && t.gaussians >= t.budget && t.budget < t.points) {
+  if (of_training && t.budget > 0 && t.gaussians >= t.budget && t.budget < t.points) {
     add("a budget of " + std::to_string(t.budget) + " Gaussians for a cloud of " + std::to_string(t.points) +
         " points");
   }
@@ -182,7 +182,7 @@ MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage&
 
   const std::string decibels = printed("%.1f dB", q.psnr_db) + " on the " + count_of(q.images) + " it was trained on";
   Judgement j;
-  j.inconsistent = doubt || consistency > most_inconsistency;
+  j.inconsistent = doubt || consistency > most_unexplained;
   j.unlike = !(q.psnr_db >= least_psnr_db) || q.depth_error_share > most_depth_share;
   j.odd = q.odd_images > most_odd_share * q.images;
   j.unseen = coverage.unseen_share > most_unseen_share;

@@ -189,6 +189,13 @@ TEST(ColorConsistency, NamesWhatIsWrong) {
     ASSERT_TRUE(doubt);
     EXPECT_NEAR(doubt->hypothesis.focal, 0.9, 0.051) << doubt->hypothesis.words();
   }
+  {  // of another shape: nothing that is tried makes it fit
+    WrongViews views;
+    PointCloud other = cloud;
+    for (Eigen::Vector3f& p : other.points) p = Eigen::Vector3f(p.y(), 0.7F * p.x(), 1.5F + 0.5F * p.z() * p.x());
+    const auto doubt = geometry_doubt(ColorConsistency(other, views));
+    EXPECT_FALSE(doubt) << doubt->hypothesis.words() << " " << doubt->instead;
+  }
   for (const double times : {1000.0, 100.0}) {
     WrongViews views;
     PointCloud large = cloud;
