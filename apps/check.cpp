@@ -11,6 +11,7 @@
 #include "benchmark/checksum.hpp"
 #include "check_report.hpp"
 #include "cloud_files.hpp"
+#include "no_result.hpp"
 #include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/progress.hpp"
@@ -29,6 +30,7 @@ struct CheckFlags {
   std::string cloud;
   double voxel = 0.0;
   std::string json;
+  bool keep_going = false;
 };
 
 std::vector<std::size_t> frames_with_depth(const Sequence& sequence) {
@@ -130,6 +132,7 @@ void print_depth(const Sequence& sequence, const ConventionReport& report, const
 void print_cloud(const Sequence& sequence, const CloudCheckReport& report) {
   print("patches of one image carried by the cloud into another %d frames on, %d pairs; 0: alike, 1: no relation\n",
         report.gap, report.pairs);
+  if (report.unit != 1.0) print("the cloud is taken times %.4g\n", 1.0 / report.unit);
   print("%s", cloud_table(report, sequence.camera()).c_str());
   if (report.fit) {
     const CloudFit& fit = *report.fit;
@@ -173,13 +176,19 @@ void run(CheckFlags flags) {
   if (!flags.json.empty()) {
     write_file_atomically(flags.json, check_json(sequence, results, checksum_of(sequence)));
   }
+  const CheckAnswer answer = answer_of(results);
+  if (answer == CheckAnswer::agree || flags.keep_going) return;
+  throw NoResult(sequence.name() + (answer == CheckAnswer::differ
+                                        ? ": the data do not agree with what their files say (the verdict is above)"
+                                        : ": the data are not shown to agree (the verdict is above)"));
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, Common& common) {
-  CLI::App* command =
-      add_command(app, common, "check", "prove by the images what fy, poses, numbering, depth scale and cloud mean");
+  CLI::App* command = add_command(app, common, "check",
+                                  "prove by the images what fy, poses, numbering, depth scale and cloud mean; ends "
+                                  "with 0 if the data agree with their files, with 3 if they do not or do not tell");
   auto flags = std::make_shared<CheckFlags>();
   add_sequence_flags(command, flags->sequence);
   CLI::Option* cloud = command->add_option(
@@ -192,6 +201,8 @@ void add_check(CLI::App& app, Common& common) {
              "frames between the two images of a pair with depth");
   add_number(command, "--pairs", flags->conventions.pairs, {.least = 1, .most = 100000}, "pairs of images with depth");
   command->add_option("--json", flags->json, "file to write verdict, findings and a checksum of the data to");
+  command->add_flag("--keep-going", flags->keep_going,
+                    "end with 0 whatever is found: for scripts that read the verdict");
   command->final_callback([flags] { run(*flags); });
 }
 

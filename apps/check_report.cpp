@@ -79,7 +79,25 @@ int pairs_of(const CheckResults& results) {
   return results.cloud ? results.cloud->pairs : 0;
 }
 
+const char* word_of(CheckAnswer answer) {
+  if (answer == CheckAnswer::agree) return "agree";
+  return answer == CheckAnswer::differ ? "differ" : "undecided";
+}
+
 }  // namespace
+
+CheckAnswer answer_of(const CheckResults& results) {
+  bool undecided = false;
+  if (results.conventions) {
+    if (!results.conventions->as_declared) return CheckAnswer::differ;
+  }
+  if (results.registration && results.registration->registered == false) return CheckAnswer::differ;
+  if (results.cloud) {
+    if (results.cloud->answer == CloudAnswer::differ) return CheckAnswer::differ;
+    undecided = results.cloud->answer == CloudAnswer::undecided;
+  }
+  return undecided ? CheckAnswer::undecided : CheckAnswer::agree;
+}
 
 std::string verdict_of(const CheckResults& results) {
   std::string verdict;
@@ -97,6 +115,7 @@ std::string check_json(const Sequence& sequence, const CheckResults& results, co
       {"layout", sequence.layout()},
       {"frames", sequence.size()},
       {"pairs", pairs_of(results)},
+      {"answer", word_of(answer_of(results))},
       {"verdict", verdict_of(results)},
       {"declared", declared_of(sequence)},
       {"color_focal_px", focal ? Json(focal->value) : Json(nullptr)},

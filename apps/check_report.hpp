@@ -21,6 +21,12 @@ struct CheckResults {
   TextureSummary texture;
 };
 
+/// What all of it comes to. differ: something is found to differ, or nothing fits. undecided: nothing is, but the data
+/// do not show that they agree.
+enum class CheckAnswer { agree, differ, undecided };
+
+CheckAnswer answer_of(const CheckResults& results);
+
 /// One line of all verdicts.
 std::string verdict_of(const CheckResults& results);
 

@@ -32,12 +32,9 @@ cv::Mat1b selected_mask(PixelSelector& selector, const GrayImage& gray, const Ca
 }
 
 std::vector<std::size_t> judged_frames(const Sequence& sequence, const EvalDepthJob& job) {
-  std::vector<std::size_t> frames;
-  const auto skip = static_cast<std::size_t>(job.skip_every);
-  for (std::size_t i = 0; i < sequence.size(); ++i) {
-    if (skip > 0 && i % skip == 0) continue;
-    if (sequence.T_world_camera(i) && sequence.has_depth(i)) frames.push_back(i);
-  }
+  const FrameRange range = job.frames.empty() ? FrameRange() : parse_frames(job.frames);
+  std::vector<std::size_t> frames = frames_not_trained_on(sequence, range, job.skip_every, job.map.map);
+  std::erase_if(frames, [&](std::size_t i) { return !sequence.T_world_camera(i) || !sequence.has_depth(i); });
   std::vector<std::size_t> thinned;
   for (std::size_t k = 0; k < frames.size(); k += static_cast<std::size_t>(job.every)) thinned.push_back(frames[k]);
   if (thinned.empty()) throw InputError(sequence.name(), "no frame with pose and depth is left to judge");
@@ -118,8 +115,8 @@ void add_eval_depth(CLI::App& app, Common& common) {
   command->add_option("--method", job->method, method_names());
   add_depth_noise_flag(command, job->depth_noise);
   add_number(command, "--every", job->every, {.least = 1}, "judge every Nth of the frames");
-  add_number(command, "--skip-every", job->skip_every, {.least = 0, .word = "none"},
-             "leave out frames 0, N, 2N ... the map was made from; 0 or none: leave out none");
+  command->add_option("--frames", job->frames, frames_help);
+  add_skip_every_flag(command, job->skip_every);
   command->add_option("--json", job->json, "report to write (JSON)");
   command->final_callback([&common, job] {
     check_flags_of_method(job->method, job->map, job->depth_noise);

@@ -5,6 +5,7 @@
 #include "map_views.hpp"
 #include "odosplat/eval/depth_metrics.hpp"
 #include "sequence_flags.hpp"
+#include "training_frames.hpp"
 
 namespace odosplat::apps {
 
@@ -14,8 +15,9 @@ struct EvalDepthJob {
   MapFlags map;
   DepthNoiseFlags depth_noise;
   std::string json;
-  int every = 10;       // step between judged frames
-  int skip_every = 10;  // frames 0, N, 2N, ... are what the map was trained on and are left out; 0: none
+  int every = 10;                     // step between judged frames
+  int skip_every = skip_as_map_says;  // frames_not_trained_on
+  std::string frames;                 // "A:B", empty: all
 };
 
 struct EvalDepthOutcome {

@@ -17,9 +17,11 @@
 #include "odosplat/core/random.hpp"
 #include "odosplat/eval/statistics.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/trajectory_file.hpp"
 #include "odosplat/odometry/relocalizer.hpp"
 #include "places.hpp"
 #include "sequence_flags.hpp"
+#include "training_frames.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -34,9 +36,11 @@ struct RelocaliseJob {
   MapFlags map;
   std::string places;
   int views = 200;
-  int skip_every = 10;
+  int skip_every = skip_as_map_says;
+  std::string range;  // "A:B", empty: all
   std::uint64_t seed = 42;
   std::string json;
+  std::string out;
 };
 
 /// One image looked up.
@@ -45,6 +49,7 @@ struct Row {
   Relocalization answer;
   std::optional<double> error_m;  // none: not found, or the true pose is not known
   std::optional<double> error_deg;
+  bool judged;  // there is a true pose
   double seconds;
   double cpu_seconds;  // of all threads: what it takes on a machine that others use, too
 };
@@ -68,11 +73,8 @@ bool loses_half(MapView& whole, const Camera& camera, const SE3& T_world_camera,
 
 /// Random frames that are no mapping views.
 std::vector<std::size_t> chosen_frames(const Common& common, const Sequence& sequence, const RelocaliseJob& job) {
-  const auto skip = static_cast<std::size_t>(job.skip_every);
-  std::vector<std::size_t> frames;
-  for (std::size_t i = 0; i < sequence.size(); ++i) {
-    if (skip == 0 || i % skip != 0) frames.push_back(i);
-  }
+  const FrameRange range = job.range.empty() ? FrameRange() : parse_frames(job.range);
+  std::vector<std::size_t> frames = frames_not_trained_on(sequence, range, job.skip_every, job.map.map);
   Random random(job.seed);
   for (std::size_t k = frames.size(); k > 1; --k) {
     std::swap(frames[k - 1], frames[random.below(static_cast<std::uint32_t>(k))]);
@@ -100,7 +102,7 @@ Row look_up(Relocalizer& relocalizer, const Sequence& sequence, std::size_t i) {
   const GrayImage image = sequence.gray(i);
   const double cpu_start = cpu_seconds();
   const Stopwatch watch;
-  Row row{i, relocalizer.find(image), {}, {}, 0.0, 0.0};
+  Row row{i, relocalizer.find(image), {}, {}, sequence.T_world_camera(i).has_value(), 0.0, 0.0};
   row.seconds = watch.seconds();
   row.cpu_seconds = cpu_seconds() - cpu_start;
   const auto truth = sequence.T_world_camera(i);
@@ -118,6 +120,7 @@ struct Summary {
   int good = 0;
   int wrong = 0;
   int refused = 0;
+  int judged = 0;                   // with a true pose, found or not
   std::vector<double> seconds;      // sorted
   std::vector<double> cpu_seconds;  // sorted
 };
@@ -127,6 +130,7 @@ Summary summarise(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     ++s.views;
     ++(row.answer.found ? s.found : s.refused);
+    if (row.judged) ++s.judged;
     if (row.error_m && *row.error_m <= good_m && *row.error_deg <= good_deg) ++s.good;
     if (row.error_m && *row.error_m > wrong_m) ++s.wrong;
     s.seconds.push_back(row.seconds);
@@ -141,17 +145,56 @@ nlohmann::ordered_json json_of(const std::vector<double>& sorted) {
   return {{"median", percentile(sorted, 50.0)}, {"p95", percentile(sorted, 95.0)}, {"max", sorted.back()}};
 }
 
-nlohmann::ordered_json json_of(const Row& row) {
-  nlohmann::ordered_json json{{"frame", row.frame},        {"found", row.answer.found},
-                              {"score", row.answer.score}, {"inlier_share", row.answer.inlier_share},
-                              {"seconds", row.seconds},    {"reason", row.answer.reason}};
-  if (row.error_m) json["error_m"] = *row.error_m;
-  if (row.error_deg) json["error_deg"] = *row.error_deg;
+// Null where it is not known.
+nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
+  return value ? nlohmann::ordered_json(*value) : nullptr;
+}
+
+nlohmann::ordered_json json_of(const Row& row, const Sequence& sequence) {
+  nlohmann::ordered_json json{{"frame", row.frame},
+                              {"time", sequence.time(row.frame)},
+                              {"found", row.answer.found},
+                              {"T_world_camera", nullptr},
+                              {"score", row.answer.score},
+                              {"inlier_share", row.answer.inlier_share},
+                              {"seconds", row.seconds},
+                              {"reason", row.answer.reason},
+                              {"error_m", number_or_null(row.error_m)},
+                              {"error_deg", number_or_null(row.error_deg)}};
+  if (row.answer.found) {
+    const Eigen::Vector3d& t = row.answer.T_world_camera.translation();
+    const Eigen::Quaterniond& q = row.answer.T_world_camera.rotation();
+    json["T_world_camera"] = {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
+  }
   return json;
+}
+
+/// Poses of the frames that were found, in the order of the sequence.
+Trajectory found_poses(std::vector<Row> rows, const Sequence& sequence) {
+  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.frame < b.frame; });
+  Trajectory poses;
+  for (const Row& row : rows) {
+    if (row.answer.found)
+      poses.push_back({sequence.time(row.frame), row.answer.T_world_camera, sequence.time_text(row.frame)});
+  }
+  return poses;
+}
+
+void print_found(const Summary& s) {
+  if (s.judged == 0) {
+    print("%d views: %d found, - of them within %.0f cm and %.0f deg (no true poses to compare with); %d refused\n",
+          s.views, s.found, 100.0 * good_m, good_deg, s.refused);
+    return;
+  }
+  print("%d views: %d found, %d of them within %.0f cm and %.0f deg (%.1f %%), %d beyond %.0f cm; %d refused", s.views,
+        s.found, s.good, 100.0 * good_m, good_deg, 100.0 * s.good / s.judged, s.wrong, 100.0 * wrong_m, s.refused);
+  if (s.judged < s.views) print("; %d without a true pose, not counted as good or wrong", s.views - s.judged);
+  print("\n");
 }
 
 void run(const Common& common, const RelocaliseJob& job) {
   const MadeFolders made = ensure_output_if_given(job.json);
+  const MadeFolders made_for_poses = ensure_output_if_given(job.out);
   const Sequence sequence = open_sequence(job.sequence);
   const std::vector<std::size_t> frames = chosen_frames(common, sequence, job);
   const std::vector<SE3> places = places_of(job.map, job.places);
@@ -173,24 +216,25 @@ void run(const Common& common, const RelocaliseJob& job) {
   if (opened.device) print_profile(common, *opened.device);
   const Summary s = summarise(rows);
   print("%zu places of %zu, rendered in %.2f s\n", kept, places.size(), index_s);
-  print("%d views: %d found, %d of them within %.0f cm and %.0f deg (%.1f %%), %d beyond %.0f cm; %d refused\n",
-        s.views, s.found, s.good, 100.0 * good_m, good_deg, 100.0 * s.good / s.views, s.wrong, 100.0 * wrong_m,
-        s.refused);
+  print_found(s);
   print("a view: %.3f s (95 %%: %.3f, most: %.3f); CPU of all threads: %.3f s (95 %%: %.3f, most: %.3f)\n",
         percentile(s.seconds, 50.0), percentile(s.seconds, 95.0), s.seconds.back(), percentile(s.cpu_seconds, 50.0),
         percentile(s.cpu_seconds, 95.0), s.cpu_seconds.back());
+  if (!job.out.empty()) write_trajectory(job.out, found_poses(rows, sequence));
   if (job.json.empty()) return;
+  const auto if_judged = [&](int count) { return s.judged > 0 ? nlohmann::ordered_json(count) : nullptr; };
   nlohmann::ordered_json json{{"views", s.views},
                               {"found", s.found},
-                              {"within_2cm_1deg", s.good},
-                              {"beyond_10cm", s.wrong},
+                              {"with_truth", s.judged},
+                              {"within_2cm_1deg", if_judged(s.good)},
+                              {"beyond_10cm", if_judged(s.wrong)},
                               {"refused", s.refused},
                               {"places", kept},
                               {"index_seconds", index_s},
                               {"seconds", json_of(s.seconds)},
                               {"cpu_seconds", json_of(s.cpu_seconds)},
                               {"rows", nlohmann::ordered_json::array()}};
-  for (const Row& row : rows) json["rows"].push_back(json_of(row));
+  for (const Row& row : rows) json["rows"].push_back(json_of(row, sequence));
   write_file_atomically(job.json, json_text(json));
 }
 
@@ -205,14 +249,17 @@ void add_relocalise(CLI::App& app, Common& common) {
   command->add_option("--method", job->method, "gaussian, paper or interpolation");
   command->add_option("--places", job->places, places_help);
   add_number(command, "--views", job->views, {.least = 1}, "random frames to look up");
-  add_number(command, "--skip-every", job->skip_every, {.least = 0, .word = "none"},
-             "leave out frames 0, N, 2N ... the map was made from; 0 or none: leave out none");
+  command->add_option("--frames", job->range, frames_help);
+  add_skip_every_flag(command, job->skip_every);
   command
       ->add_option("--without-half", job->map.without_half,
                    "delete the half of the map on that side, and look up frames that showed mostly it")
       ->check(CLI::IsMember({"+x", "-x", "+y", "-y", "+z", "-z"}));
   add_number(command, "--seed", job->seed, {}, "seed of the choice of frames");
-  command->add_option("--json", job->json, "report to write (JSON)");
+  command->add_option("--out", job->out, "trajectory of the frames that were found to write (TUM, T_world_camera)");
+  command->add_option("--json", job->json,
+                      "report to write (JSON): of every frame found or not, T_world_camera (tx ty tz qx qy qz qw), "
+                      "score, and the error where the true pose is known");
   command->final_callback([&common, job] { run(common, *job); });
 }
 

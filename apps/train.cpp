@@ -23,6 +23,7 @@
 #include "stages.hpp"
 #include "train_start.hpp"
 #include "train_views.hpp"
+#include "training_frames.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -119,20 +120,25 @@ struct Finished {
   std::vector<std::string> notes;
 };
 
-Finished finish(const compute::Context& device, const Trainer& trainer, const Gaussians& gaussians,
+Finished finish(const TrainJob& job, const compute::Context& device, const Trainer& trainer, const Gaussians& gaussians,
                 const TrainingStart& prepared, SequenceViews& views) {
   Stages stages("finish", 2);
   Finished f;
   stages.next("judging the map by its images");
   f.views = view_qualities(device, gaussians, views, prepared.surface.get(), trainer.exposures(),
                            trainer.options().rasterizer);
-  f.quality = judge_map(f.views, prepared.coverage, prepared.consistency, prepared.doubt);
+  const TrainingEvidence evidence{trainer.iteration(), TrainerOptions::preset(job.preset, views.count()).iterations,
+                                  gaussians.size(), prepared.cloud.size(), job.budget};
+  f.quality = judge_map(f.views, prepared.coverage, prepared.consistency, prepared.doubt, evidence);
   f.notes = trainer.options().describe();
   f.notes.push_back("iterations_done " + std::to_string(trainer.iteration()));
   for (const std::string& line : f.quality.to_lines()) f.notes.push_back(line);
   std::vector<SE3> poses;
   for (int i = 0; i < views.count(); ++i) poses.push_back(views.T_world_camera(i));
   for (const std::string& line : place_lines(thinned_places(poses))) f.notes.push_back(line);
+  const FrameRange range = job.frames.empty() ? FrameRange() : parse_frames(job.frames);
+  for (const Sequence& sequence : views.sequences())
+    f.notes.push_back(training_frames_line(sequence, job.every, range));
   if (prepared.surface == nullptr) return f;
   stages.next("how sure the map's depth is");
   SigmaCalibrationOptions options;
@@ -167,7 +173,7 @@ void write_report(const TrainJob& job, const TrainingReport& report, const Finis
                               {"gaussians", report.gaussians},
                               {"seconds", report.seconds},
                               {"iterations_per_second", report.iterations_per_second},
-                              {"psnr_db", report.psnr_db},
+                              {"psnr_db", report.iterations > 0 ? report.psnr_db : finished.quality.psnr_db},
                               {"undone", report.undone},
                               {"peak_memory_mb", peak_memory_mb()},
                               {"preset", job.preset},
@@ -228,7 +234,7 @@ TrainOutcome train_map(const Common& common, const TrainJob& job) {
   const TrainingReport report = trainer.report();
   const bool saved = save(job, trainer);  // judging takes time, and may be interrupted
   const Gaussians gaussians = trainer.gaussians();
-  const Finished finished = finish(device, trainer, gaussians, prepared, views);
+  const Finished finished = finish(job, device, trainer, gaussians, prepared, views);
   try {
     write_map(job.out, gaussians, finished.notes);
   } catch (const InputError& e) {
@@ -290,9 +296,13 @@ void add_train(CLI::App& app, Common& common) {
   command->final_callback([&common, job] {
     const TrainOutcome outcome = train_map(common, *job);
     const TrainingReport& report = outcome.training;
-    print("%s: %zu Gaussians, %d iterations in %s (%.1f it/s), PSNR %.2f dB on the training images\n", job->out.c_str(),
-          report.gaussians, report.iterations, format_duration(report.seconds).c_str(), report.iterations_per_second,
-          report.psnr_db);
+    if (report.iterations == 0) {
+      print("%s: %zu Gaussians of the cloud, untrained\n", job->out.c_str(), report.gaussians);
+    } else {
+      print("%s: %zu Gaussians, %d iterations in %s (%.1f it/s), PSNR %.2f dB on the training images\n",
+            job->out.c_str(), report.gaussians, report.iterations, format_duration(report.seconds).c_str(),
+            report.iterations_per_second, report.psnr_db);
+    }
     print("the map is %s\n", outcome.quality.verdict.c_str());
   });
 }

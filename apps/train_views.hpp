@@ -28,6 +28,7 @@ class SequenceViews : public TrainingViews {
   /// Where view i comes from.
   std::string sequence_name(int i) const { return sequence(i).name(); }
   std::size_t frame(int i) const { return at(i).frame; }
+  const std::vector<Sequence>& sequences() const { return sequences_; }
 
  private:
   struct Place {

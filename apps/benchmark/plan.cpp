@@ -233,7 +233,7 @@ class Planner {
     job.id = "check/" + s.name;
     s.check_job = job.id;
     s.check_file = out_ + "/checks/" + s.name + ".json";
-    job.command = {"odosplat", "check", s.path, "--json", s.check_file};
+    job.command = {"odosplat", "check", s.path, "--keep-going", "--json", s.check_file};
     job.outputs = {s.check_file};
     if (!s.job.empty()) job.needs = {s.job};
     job.work = 5.0;

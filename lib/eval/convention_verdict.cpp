@@ -44,23 +44,33 @@ int agreement(const Convention& a, const Convention& b) {
       std::count_if(std::begin(parts), std::end(parts), [&](const Part& p) { return p.same(a, b); }));
 }
 
-std::string undecided_text(const Part& part, const ConventionRow& winner, const ConventionRow& other, bool as_declared,
+// A part's value, and what else of the row is not as declared: only together do they explain the images.
+std::string row_text(const Part& part, const ConventionRow& row, const Convention& declared, const Camera& camera) {
+  std::string text = part.text(row.convention, camera);
+  for (const Part& other : parts) {
+    if (&other == &part || other.same(row.convention, declared)) continue;
+    text += std::string(" with ") + other.name + " " + other.text(row.convention, camera);
+  }
+  return text + (row.tried ? format(" errs by %.3g %% of the depth", 100.0 * row.relative_error)
+                           : std::string(" cannot be tried without more poses"));
+}
+
+// denied: no row that fits has the declared value.
+std::string undecided_text(const Part& part, const ConventionRow& winner, const ConventionRow& other, bool denied,
                            const Convention& declared, const Camera& camera) {
-  const auto share = [](const ConventionRow& row) {
-    return row.tried ? format("errs by %.3g %% of the depth", 100.0 * row.relative_error)
-                     : std::string("cannot be tried without more poses");
-  };
   const std::string denial =
-      as_declared ? "" : "not " + part.text(declared, camera) + " as the file says; what it is instead ";
+      denied ? "not " + part.text(declared, camera) + " as the file says; what it is instead " : "";
   return std::string(part.name) + ": " + denial + "not decidable from these images (" +
-         part.text(winner.convention, camera) + " " + share(winner) + ", " + part.text(other.convention, camera) + " " +
-         share(other) + ")";
+         row_text(part, winner, declared, camera) + ", " + row_text(part, other, declared, camera) + ")";
 }
 
 std::string difference_text(const Part& part, const Convention& winner, const Convention& declared,
                             const Camera& camera) {
   std::string text = std::string(part.name) + ": the data want " + part.text(winner, camera) + ", the file says " +
                      part.text(declared, camera);
+  if (&part == &parts[3]) {
+    text += " (depths are read " + format("%.4g", winner.depth_scale / declared.depth_scale) + " times too large)";
+  }
   if (&part == &parts[0]) {
     text += " (or reflect the poses: F T F with F = diag(1, -1, 1))";
   } else if (winner.id_shift != declared.id_shift && &part == &parts[2]) {
@@ -91,14 +101,20 @@ void judge_conventions(ConventionReport& report, const Camera& camera, double ma
     ConventionFinding finding;
     finding.part = part.name;
     finding.as_declared = part.same(report.winner, report.declared);
-    const auto other = std::find_if(report.rows.begin(), report.rows.end(), [&](const ConventionRow& row) {
-      const bool rival = !part.same(row.convention, report.winner) &&
-                         agreement(row.convention, report.winner) >= static_cast<int>(std::size(parts)) - 2;
-      return rival && !beats(*winner, row);
+    const auto fits_otherwise = [&](const ConventionRow& row) {
+      return !part.same(row.convention, report.winner) &&
+             agreement(row.convention, report.winner) >= static_cast<int>(std::size(parts)) - 2 && !beats(*winner, row);
+    };
+    auto other = std::find_if(report.rows.begin(), report.rows.end(), fits_otherwise);
+    // With another value of another part the declared one may fit as well as the winner.
+    const auto declared = std::find_if(report.rows.begin(), report.rows.end(), [&](const ConventionRow& row) {
+      return fits_otherwise(row) && part.same(row.convention, report.declared);
     });
+    if (!finding.as_declared && declared != report.rows.end()) other = declared;
     finding.decided = other == report.rows.end();
     if (!finding.decided) {
-      finding.text = undecided_text(part, *winner, *other, finding.as_declared, report.declared, camera);
+      const bool denied = !finding.as_declared && declared == report.rows.end();
+      finding.text = undecided_text(part, *winner, *other, denied, report.declared, camera);
       open += "; " + finding.text;
     } else if (!finding.as_declared) {
       finding.text = difference_text(part, report.winner, report.declared, camera);
@@ -115,7 +131,9 @@ void judge_conventions(ConventionReport& report, const Camera& camera, double ma
   } else if (report.as_declared) {
     report.verdict = "the data agree with what is declared, to " + millimetres(winner->error_m) + open;
   } else {
-    report.verdict = differences.empty() ? open.substr(2) : differences + open;
+    // Several parts that explain it only one with another: none is named, but it is not as declared.
+    report.verdict =
+        differences.empty() ? "the data do not agree with what is declared; " + open.substr(2) : differences + open;
   }
 }
 

@@ -70,6 +70,7 @@ SequenceIndex index_nerfstudio(const std::string& path, const SequenceOptions& o
   }
   camera.depth_scale = transforms.depth_scale;
   choose_camera(options, {folder}, camera, file, camera.depth_scale, index);
+  index.camera.has_depth_scale = true;  // the format states its default
   fill_numbered(files, index);
   std::size_t posed = 0;  // frames without a pose are not in the truth
   for (std::size_t i = 0; i < transforms.frames.size(); ++i) {

@@ -3,8 +3,10 @@
 #include "odosplat/io/sequence.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -83,6 +85,19 @@ struct Sequence::Data {
   Undistorter undistorter;
   PhotometricCorrection photometric;
   std::vector<double> exposures;  // a frame, median 1; empty: not known
+
+  mutable std::once_flag depth_scale_said;
+
+  // Once, and only where depth is read: others need no scale.
+  void say_assumed_depth_scale() const {
+    if (index.camera.has_depth_scale) return;
+    std::call_once(depth_scale_said, [this] {
+      char text[64];
+      std::snprintf(text, sizeof(text), "%g", index.camera.depth_scale);
+      log_warning(index.camera_source + " names no depth_scale: " + text +
+                  " units a metre are assumed, as is usual for the layout " + layout);
+    });
+  }
 
   const FrameFiles& frame(std::size_t i) const {
     if (i >= index.frames.size()) throw std::out_of_range("frame " + std::to_string(i) + " of " + name);
@@ -307,6 +322,7 @@ ColorImage Sequence::color(std::size_t i) const {
 DepthImage Sequence::depth(std::size_t i) const {
   const FrameFiles& files = data_->frame(i);
   if (files.depth.empty()) throw InputError(data_->name, "frame " + std::to_string(i), "has no depth image");
+  data_->say_assumed_depth_scale();
   const ImageLimit limit{data_->max_image_pixels,
                          [&](const cv::Size& size) { data_->require_depth_size(files, size); }};
   const cv::Mat1w raw = read_depth_raw(files.depth, limit);

@@ -66,26 +66,49 @@ struct CloudRow : PairScores {
   double overlap = 0.0;  // mean share of the patches that the other image shows
 };
 
+/// Whether the shape of the cloud is what makes patches agree. Two controls take its place: all patches of an image at
+/// one distance and facing the camera, and all too far off for any motion to show. A cloud that fits beats both; one of
+/// another place, turned, or in another unit does no better than a flat wall would.
+struct CloudControl {
+  PairScores cloud;
+  PairScores flat;
+  PairScores distant;
+};
+
 /// What is said of one part.
 struct CloudFinding {
-  std::string part;           // "fy", "cloud's y", "poses", "id shift", "cloud scale", "cloud offset",
+  std::string part;           // "cloud unit", "fy", "cloud's y", "poses", "id shift", "cloud scale", "cloud offset",
                               // "cloud rotation", "focal length"
   std::optional<bool> right;  // as declared; none: the data do not tell
   std::string text;           // one sentence; empty if right
 };
 
+/// agree: the cloud is shown to fit, nothing is found to differ, and its scale and place are measured well enough to
+/// say so. differ: a part is found to differ, or the cloud fits under no reading. undecided: the images do not tell.
+enum class CloudAnswer { agree, differ, undecided };
+
 struct CloudCheckReport {
-  std::vector<CloudRow> rows;  // best first
+  std::vector<CloudRow> rows;  // best first, with the cloud in the unit that was found
+  double unit = 1.0;           // the cloud's coordinates are this many times the poses' unit too large
   CloudReading declared;
   CloudReading winner;
   int gap = 0;
   int pairs = 0;
-  bool believable = false;      // the winner's error is below max_error
-  bool textured = false;        // enough of the cloud's visible points lie on texture
-  bool as_declared = false;     // believable, and no part is found to differ
-  std::optional<CloudFit> fit;  // of scale, offset, rotation and focal length; if believable and measurable
+  bool believable = false;                // the winner's error is below max_error
+  bool textured = false;                  // enough of the cloud's visible points lie on texture
+  std::optional<CloudFit> fit;            // of scale, offset, rotation and focal length; if believable and measurable
+  CloudControl given;                     // of the winner, on the pairs of the rows
+  std::optional<CloudControl> corrected;  // with what was fitted; if there is a fit
+  double largest_gap_error = 0.0;         // the winner's at the largest gap that was looked at; infinite: no overlap
   std::vector<CloudFinding> findings;
+  CloudAnswer answer = CloudAnswer::undecided;
   std::string verdict;  // one line
+
+  /// The cloud as given does better than both controls, and the fit does not want it elsewhere altogether.
+  bool fits() const;
+  /// What was fitted is within what a fit from there can find, makes patches agree better than they do as given, and
+  /// better than both controls do with it.
+  bool correction_gains() const;
 };
 
 /// Finds out without any depth image how posed images and a cloud belong together: patches around the cloud's visible
@@ -95,6 +118,10 @@ struct CloudCheckReport {
 /// check_conventions(): what cannot be told apart is left as declared and called not decidable. Then scale, offset and
 /// rotation of the cloud and the focal length are fitted by least squares of where patches are found and where they
 /// should be, over gaps up to four times as long (fit_cloud()).
+///
+/// Nothing is accused, nor the data called in agreement, unless the cloud is shown to fit as it is then (CloudControl).
+/// Where neither the cloud as given nor the fit is, other units (mm, cm, inches, feet, and poses in mm or cm) are tried
+/// and the one that fits is named; else the report says that the cloud does not fit, or that the images do not tell.
 ///
 /// What does not show: a shift with a camera that moves steadily, scale and offset with one that only turns, anything
 /// with one that stands still or sees no texture. The report says so. Offsets along surfaces show only at other

@@ -48,16 +48,6 @@ Camera scaled(Camera camera, double factor) {
   return camera;
 }
 
-PointCloud moved(const PointCloud& cloud, const Similarity& similarity) {
-  PointCloud result;
-  const Eigen::Matrix3f R = similarity.T_target_source.rotation_matrix().cast<float>();
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    result.points.push_back((similarity * cloud.points[i].cast<double>()).cast<float>());
-    result.normals.push_back(R * cloud.normals[i]);
-  }
-  return result;
-}
-
 struct Pair {
   std::size_t from = 0;
   std::size_t to = 0;
@@ -282,6 +272,16 @@ Measured length_of(const Eigen::Vector3d& value, const Eigen::Matrix3d& covarian
 }
 
 }  // namespace
+
+PointCloud moved(const PointCloud& cloud, const Similarity& similarity) {
+  PointCloud result;
+  const Eigen::Matrix3f R = similarity.T_target_source.rotation_matrix().cast<float>();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    result.points.push_back((similarity * cloud.points[i].cast<double>()).cast<float>());
+    result.normals.push_back(R * cloud.normals[i]);
+  }
+  return result;
+}
 
 CloudFit fit_cloud(const CloudFitInput& input, const CloudFitOptions& options) {
   CloudFit fit;

@@ -52,6 +52,9 @@ struct CloudFitOptions {
   int patches = 400;  // a pair
 };
 
+/// Points and normals under a similarity; other properties are left out.
+PointCloud moved(const PointCloud& cloud, const Similarity& similarity);
+
 /// Fits a similarity of the cloud about the middle of what is seen, and the focal length. Every patch (visible_patches)
 /// is looked for in the pair's other image (match_patch); the distance from where it should be is linear in the eight
 /// unknowns: the pixel stays, the plane under it moves. Weighted least squares on the directions in which a patch has

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <iterator>
 
+#include "odosplat/map/length_units.hpp"
+
 namespace odosplat {
 namespace {
 
@@ -143,14 +145,51 @@ void choose_reading(CloudCheckReport& report, double max_error) {
   report.believable = winner->relative_error <= max_error;
 }
 
+namespace {
+
+// Both controls' errors beside the cloud's, for sentences.
+std::string control_text(const CloudControl& control) {
+  const auto text = [](const PairScores& scores) {
+    return std::isfinite(scores.relative_error) ? format("%.2f", scores.relative_error) : std::string("-");
+  };
+  return "patches differ by " + text(control.cloud) + " with it, by " + text(control.flat) +
+         " with a flat wall at its distance, by " + text(control.distant) + " with one far off";
+}
+
+std::string doubt_text(const CloudCheckReport& report, const CloudCheckOptions& options) {
+  // Patches agree over the whole gap, and as well with a cloud that is infinitely far: nothing moved against it.
+  const bool still = report.largest_gap_error <= options.max_error && !beats(report.given.cloud, report.given.distant);
+  const std::string controls = " (" + control_text(report.given) + ")";
+  if (still) {
+    return "the images do not tell whether the cloud fits: the camera hardly moves against the cloud's distances" +
+           controls + "; more motion, or a cloud in another unit than the poses, would explain it";
+  }
+  return "the cloud does not fit these images" + controls +
+         "; cause not decidable: a cloud of another place, turned, in another unit or far off, poses or a camera that "
+         "are wrong, or images of one flat wall";
+}
+
+// Of what no correction is known to mend, nothing is accused.
+void withdraw(CloudFinding& finding, const std::string& why) {
+  if (finding.right != false) return;
+  finding.right.reset();
+  const std::size_t colon = finding.text.find(": ");
+  finding.text =
+      finding.part + ": not decidable from these images (" + finding.text.substr(colon + 2) + ", but " + why + ")";
+}
+
+}  // namespace
+
 void judge_cloud(CloudCheckReport& report, const CloudCheckOptions& options, const Camera& camera) {
   const CloudRow& winner = row_of(report, report.winner);
   if (!report.believable) {
     if (!report.textured) {
+      report.answer = CloudAnswer::undecided;
       report.verdict =
           "nothing can be said: too few of the cloud's points are seen on texture under any reading (no texture, or "
           "cloud and poses are not of one place)";
     } else {
+      report.answer = CloudAnswer::differ;
       report.verdict = "no reading fits: the best leaves patches different by " +
                        format(
                            "%.2f (0: alike, 1: no relation); cloud and poses are not of one world, or cloud, scale "
@@ -159,10 +198,33 @@ void judge_cloud(CloudCheckReport& report, const CloudCheckOptions& options, con
     }
     return;
   }
-  for (const Part& part : parts) report.findings.push_back(part_finding(report, part, camera));
+  const bool fits = report.fits();
+  const bool gains = report.correction_gains();
+  if (report.unit != 1.0) {
+    report.findings.push_back({"cloud unit", false,
+                               "cloud unit: " + unit_words(report.unit) +
+                                   format(", %.4g times as large as the poses say; the rest is said of it with that "
+                                          "mended",
+                                          report.unit)});
+  }
+  // Under a cloud that is not shown to fit, only what leaves the declared reading without any resemblance is named.
+  const CloudRow& declared = row_of(report, report.declared);
+  const bool readings_tell = fits || gains || !(declared.relative_error <= options.max_error);
+  for (const Part& part : parts) {
+    report.findings.push_back(part_finding(report, part, camera));
+    if (!readings_tell) withdraw(report.findings.back(), "the cloud is not shown to fit");
+  }
+  bool measured = report.fit.has_value();
   if (report.fit) {
-    const std::vector<CloudFinding> more = fit_findings(*report.fit, options, camera);
-    report.findings.insert(report.findings.end(), more.begin(), more.end());
+    for (CloudFinding& finding : fit_findings(*report.fit, options, camera)) {
+      if (!gains) {
+        withdraw(finding,
+                 fits ? "patches agree no better with that mended" : "the cloud is not shown to fit with that mended");
+      }
+      const bool of_place = finding.part == "cloud scale" || finding.part == "cloud offset";
+      if (of_place && !finding.right) measured = false;
+      report.findings.push_back(finding);
+    }
   }
   std::string differences;
   std::string open;
@@ -171,9 +233,20 @@ void judge_cloud(CloudCheckReport& report, const CloudCheckOptions& options, con
     if (!finding.text.empty()) list += (list.empty() ? "" : "; ") + finding.text;
   }
   if (!report.fit) open += std::string(open.empty() ? "" : "; ") + "too few patches are found again to measure more";
-  report.as_declared = differences.empty();
-  report.verdict = differences.empty() ? format("images, poses and cloud agree, patches to %.2f", winner.relative_error)
-                                       : differences;
+  if (!differences.empty()) {
+    report.answer = CloudAnswer::differ;
+    report.verdict = differences;
+    if (!fits && !gains) report.verdict += "; beyond that, " + doubt_text(report, options);
+  } else if (fits && measured) {
+    report.answer = CloudAnswer::agree;
+    report.verdict = format("images, poses and cloud agree, patches to %.2f", winner.relative_error);
+  } else {
+    report.answer = CloudAnswer::undecided;
+    report.verdict = fits
+                         ? "nothing is found to differ, but the cloud's scale or place is not known well enough to say "
+                           "that it agrees"
+                         : doubt_text(report, options);
+  }
   if (!open.empty()) report.verdict += "; " + open;
 }
 

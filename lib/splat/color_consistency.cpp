@@ -10,6 +10,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
+#include "odosplat/map/length_units.hpp"
 
 namespace odosplat {
 
@@ -32,6 +33,10 @@ void ColorConsistencyOptions::check() const {
 std::string GeometryHypothesis::words() const {
   char text[160];
   if (inverted) return "the poses are inverted (camera from world instead of world from camera)";
+  if (unit != 1.0) {
+    std::snprintf(text, sizeof(text), "%s (%.4g times as large as the poses say)", unit_words(unit).c_str(), unit);
+    return text;
+  }
   if (focal != 1.0) {
     std::snprintf(text, sizeof(text), "the focal length is wrong (%.2f of it fits better)", focal);
     return text;
@@ -106,8 +111,9 @@ ColorConsistency::Value ColorConsistency::of(const GeometryHypothesis& hypothesi
       camera.fx *= hypothesis.focal;
       camera.fy *= hypothesis.focal;
       const SE3 T = hypothesis.inverted ? view.T_world_camera.inverse() : view.T_world_camera;
-      // A cloud that is moved by -offset is as good as cameras that are moved by +offset.
-      const SE3 T_world_camera(T.rotation(), T.translation() + hypothesis.offset);
+      // A cloud that is moved by -offset is as good as cameras that are moved by +offset, and
+      // one that is shrunk as good as cameras that stand apart as much more.
+      const SE3 T_world_camera(T.rotation(), hypothesis.unit * T.translation() + hypothesis.offset);
       for (const SeenPoints::Point& p : points_.in(camera, T_world_camera)) {
         const float u = std::clamp(p.u, 0.0F, static_cast<float>(camera.width - 1));
         const float v = std::clamp(p.v, 0.0F, static_cast<float>(camera.height - 1));
@@ -162,6 +168,7 @@ std::optional<GeometryDoubt> geometry_doubt(const ColorConsistency& consistency)
     return true;
   };
   tried({.inverted = true});
+  for (const LengthUnit& unit : length_units) tried({.unit = unit.times});
   for (const double focal : {0.75, 0.8, 0.85, 0.9, 0.95, 1.05, 1.1, 1.15, 1.25, 1.35}) tried({.focal = focal});
   GeometryHypothesis moved;
   double least = given.unexplained;
@@ -187,6 +194,8 @@ std::optional<GeometryDoubt> geometry_doubt(const ColorConsistency& consistency)
     best.hypothesis = moved;
     best.instead = least;
   }
+  // What fits a little better than something that does not fit at all is no cause.
+  if (best.instead > most_unexplained) return std::nullopt;
   if (!(best.instead < clearly_better * best.as_given) || best.as_given - best.instead < least_gain)
     return std::nullopt;
   return best;

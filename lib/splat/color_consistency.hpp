@@ -16,12 +16,18 @@ namespace odosplat {
 /// What may be wrong with poses, camera and cloud; the default: nothing.
 struct GeometryHypothesis {
   bool inverted = false;                             // the poses are T_camera_world
+  double unit = 1.0;                                 // times that the cloud's coordinates are larger than the poses'
   double focal = 1.0;                                // times the focal length that was given
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // [m, world] that the cloud lies off the poses' world
 
   /// "the poses are inverted", ...: a likely cause, named.
   std::string words() const;
 };
+
+/// ColorConsistency::Value::unexplained above which images and cloud do not belong together. Chosen, not fitted: three
+/// rooms as they should be have 0.04 to 0.13; another camera's focal length and depth 0.34; a cloud that is turned by
+/// 90 degrees 0.46 to 0.87, one in mm or cm 0.84 to 0.88.
+inline constexpr double most_unexplained = 0.25;
 
 struct ColorConsistencyOptions {
   std::size_t points = 4000;  // of the cloud, evenly spread, >= 1
@@ -70,8 +76,9 @@ struct GeometryDoubt {
   double instead = 1.0;
 };
 
-/// The best among inverted poses, focal lengths from 0.75 to 1.35 of the given one, and offsets up to 0.6 m, if it is
-/// clearly better; none otherwise.
+/// The best among inverted poses, other units of length (length_units), focal lengths from 0.75 to 1.35 of the given
+/// one, and offsets up to 0.6 m, if it is clearly better and the images agree under it (most_unexplained); none
+/// otherwise.
 std::optional<GeometryDoubt> geometry_doubt(const ColorConsistency& consistency);
 
 }  // namespace odosplat

@@ -16,8 +16,10 @@ namespace {
 // Chosen, not fitted: a real kitchen (7-Scenes, registered) reaches 27.9 dB.
 constexpr double least_psnr_db = 20.0;
 constexpr double most_depth_share = 0.03;
-// Three rooms: 0.06, 0.09 and 0.13; one with another camera's focal length and depth: 0.34.
-constexpr double most_inconsistency = 0.25;
+// Images that have nothing in common at the points: another place or wrong poses, rather than a camera that is off.
+constexpr double no_relation = 0.7;
+constexpr int least_images = 3;
+constexpr double short_share = 0.5;  // of the preset's iterations
 constexpr double most_odd_share = 0.2;
 constexpr double most_unseen_share = 0.9;
 
@@ -120,8 +122,52 @@ void mark_odd(std::vector<ViewQuality>& views) {
     view.odd = !(view.psnr_db >= usual_psnr - fall) || (!depth.empty() && view.depth_error_share > most_depth);
 }
 
+namespace {
+
+struct Judgement {
+  bool inconsistent = false;
+  bool unlike = false;  // low PSNR, or depth off the cloud's
+  bool odd = false;
+  bool unseen = false;
+  std::string faults;
+
+  void add(const std::string& fault) { faults += (faults.empty() ? "" : ", ") + fault; }
+};
+
+std::string likely_cause(const MapQuality& q, const Judgement& j, const std::optional<GeometryDoubt>& doubt,
+                         const TrainingEvidence& t) {
+  std::string causes;
+  const auto add = [&](const std::string& cause) { causes += (causes.empty() ? "" : "; or ") + cause; };
+  if (doubt) {
+    add(doubt->hypothesis.words());
+  } else if (j.inconsistent && q.consistency > no_relation) {
+    add("a cloud of another place than the images, or turned, or poses that are not these images'");
+  } else if (j.inconsistent) {
+    add("a camera file that is not this camera's, depth that is not registered to colour, or wrong poses");
+  }
+  // A short training does not make images disagree with a cloud.
+  const bool of_training = j.unlike && !j.inconsistent && !j.unseen;
+  const bool cut_short = t.iterations >= 0 && t.iterations < short_share * t.usual_iterations;
+  if (of_training && cut_short) {
+    add("training stopped after " + std::to_string(t.iterations) + " of the preset's " +
+        std::to_string(t.usual_iterations) + " iterations");
+  }
+  if (of_training && t.budget > 0 && t.gaussians >= t.budget && t.budget < t.points) {
+    add("a budget of " + std::to_string(t.budget) + " Gaussians for a cloud of " + std::to_string(t.points) +
+        " points");
+  }
+  if (j.odd) add("wrong poses of those images, or things that moved");
+  if (j.unseen) add("images of another place than most of the cloud");
+  return causes.empty() ? "; cause not known: cloud, poses and camera agree as far as the images tell"
+                        : "; likely cause: " + causes;
+}
+
+std::string count_of(int images) { return std::to_string(images) + (images == 1 ? " image" : " images"); }
+
+}  // namespace
+
 MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage& coverage, double consistency,
-                     const std::optional<GeometryDoubt>& doubt) {
+                     const std::optional<GeometryDoubt>& doubt, const TrainingEvidence& training) {
   MapQuality q;
   std::vector<double> psnr;
   for (const ViewQuality& view : views) psnr.push_back(view.psnr_db);
@@ -134,37 +180,36 @@ MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage&
   q.coverage = coverage;
   q.consistency = consistency;
 
-  std::string faults;
-  const auto add = [&faults](const std::string& fault) { faults += (faults.empty() ? "" : ", ") + fault; };
-  const std::string decibels = printed("%.1f dB", q.psnr_db) + " on its images";
-  if (!(q.psnr_db >= least_psnr_db)) add("only " + decibels);
-  const bool inconsistent = doubt || consistency > most_inconsistency;
-  if (inconsistent)
-    add("the images disagree on the colours of the cloud's points (" + printed("%.0f %%", 100.0 * consistency) +
-        " of the variance)");
+  const std::string decibels = printed("%.1f dB", q.psnr_db) + " on the " + count_of(q.images) + " it was trained on";
+  Judgement j;
+  j.inconsistent = doubt || consistency > most_unexplained;
+  j.unlike = !(q.psnr_db >= least_psnr_db) || q.depth_error_share > most_depth_share;
+  j.odd = q.odd_images > most_odd_share * q.images;
+  j.unseen = coverage.unseen_share > most_unseen_share;
+  if (!(q.psnr_db >= least_psnr_db)) j.add("only " + decibels);
+  if (j.inconsistent)
+    j.add("the images disagree on the colours of the cloud's points (" + printed("%.0f %%", 100.0 * consistency) +
+          " of the variance)");
   if (q.depth_error_share > most_depth_share)
-    add("its depth is " + printed("%.1f %%", 100.0 * q.depth_error_share) + " off the cloud's");
-  if (q.odd_images > most_odd_share * q.images)
-    add(std::to_string(q.odd_images) + " of " + std::to_string(q.images) + " images disagree with the rest");
-  if (coverage.unseen_share > most_unseen_share)
-    add("no image sees " + printed("%.0f %%", 100.0 * coverage.unseen_share) + " of the cloud");
-  q.good = faults.empty();
-  if (!q.good) {
-    std::string cause;
-    if (doubt) {
-      cause = doubt->hypothesis.words();
-    } else if (inconsistent) {
-      cause = "a camera file that is not this camera's, depth that is not registered to colour, or wrong poses";
-    } else if (!(q.psnr_db >= least_psnr_db) || q.depth_error_share > most_depth_share) {
-      cause = "poses, camera and cloud do not belong together, or the images have other exposures";
-    } else if (q.odd_images > most_odd_share * q.images) {
-      cause = "wrong poses of those images, or things that moved";
-    } else {
-      cause = "images of another place than the cloud";
-    }
-    q.verdict = "doubtful: " + faults + "; likely cause: " + cause;
+    j.add("its depth is " + printed("%.1f %%", 100.0 * q.depth_error_share) + " off the cloud's");
+  if (j.odd) j.add(std::to_string(q.odd_images) + " of " + count_of(q.images) + " disagree with the rest");
+  if (j.unseen) j.add("no image sees " + printed("%.0f %%", 100.0 * coverage.unseen_share) + " of the cloud");
+  if (!j.faults.empty() && training.iterations != 0) {
+    q.verdict = "doubtful: " + j.faults + likely_cause(q, j, doubt, training);
     return q;
   }
+  if (training.iterations == 0) {
+    q.verdict = "not judged: no step of training was done (" + printed("%.1f dB", q.psnr_db) + " on " +
+                count_of(q.images) + ")";
+    if (j.inconsistent) q.verdict += likely_cause(q, j, doubt, {});
+    return q;
+  }
+  if (q.images < least_images) {
+    q.verdict = "not judged: it was trained on " + count_of(q.images) +
+                " only, which a map fits whatever its geometry (" + printed("%.1f dB", q.psnr_db) + ")";
+    return q;
+  }
+  q.good = true;
   q.verdict = "good: " + decibels;
   if (q.depth_error_m >= 0.0)
     q.verdict += ", depth within " + printed("%.1f mm", 1000.0 * q.depth_error_m) + " of the cloud's";

@@ -35,10 +35,19 @@ struct CloudCoverage {
   std::array<double, 6> directions{};
 };
 
+/// How the training went that made a map.
+struct TrainingEvidence {
+  int iterations = -1;        // that were done, negative: unknown
+  int usual_iterations = 0;   // of the preset
+  std::size_t gaussians = 0;  // of the map
+  std::size_t points = 0;     // of the cloud
+  std::size_t budget = 0;     // most Gaussians that the user asked for, 0: no such limit
+};
+
 /// What a map is worth, in the words and figures of its header.
 struct MapQuality {
   bool good = false;
-  std::string verdict;              // one line: "good: ..." or "doubtful: ...; likely cause: ..."
+  std::string verdict;              // one line: "good: ...", "not judged: ..." or "doubtful: ...; likely cause: ..."
   double psnr_db = 0.0;             // median over the training images
   double depth_error_m = -1.0;      // likewise, negative: unknown
   double depth_error_share = -1.0;  // likewise
@@ -72,8 +81,12 @@ std::vector<ViewQuality> view_qualities(const compute::Context& context, const G
 /// standard deviations (1.4826 median absolute deviations) and at least by 4 dB or a factor of 3.
 void mark_odd(std::vector<ViewQuality>& views);
 
-/// The verdict from all of that, and what geometry_doubt found.
+/// The verdict from all of that, and what geometry_doubt found. Not judged, and not good: a map that was not trained,
+/// or of one or two images, which a map fits whatever its geometry. A doubtful map's cause is named only where
+/// something bears it: a geometry that fits better, images that do not agree on the cloud's colours, a training that
+/// was much shorter than the preset's or was held to a budget below the cloud's points, images that disagree with the
+/// rest.
 MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage& coverage, double consistency,
-                     const std::optional<GeometryDoubt>& doubt);
+                     const std::optional<GeometryDoubt>& doubt, const TrainingEvidence& training = {});
 
 }  // namespace odosplat

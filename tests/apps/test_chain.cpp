@@ -168,6 +168,45 @@ TEST_F(Chain, LooksUpSingleImages) {
   for (const auto& row : report["rows"]) EXPECT_NE(row["frame"].get<int>() % 5, 0);
 }
 
+TEST_F(Chain, LooksUpImagesWhoseTruePosesNobodyKnows) {
+  const Trajectory truth = read_trajectory(sequence_ + "/groundtruth.txt");
+  fs::remove(sequence_ + "/groundtruth.txt");
+  const std::string json = scratch_ / "found.json";
+  const std::string poses = scratch_ / "found.txt";
+  const RunResult result = must_run({"relocalise", sequence_, "--map", map_, "--frames", "11:14", "--skip-every",
+                                     "none", "--json", json, "--out", poses});
+  EXPECT_THAT(result.out, HasSubstr("3 views: 3 found, - of them within"));
+  const auto report = nlohmann::json::parse(read_text(json));
+  EXPECT_TRUE(report["within_2cm_1deg"].is_null());
+  EXPECT_TRUE(report["beyond_10cm"].is_null());
+  const Trajectory found = read_trajectory(poses);
+  ASSERT_EQ(found.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(found[k].time, truth[11 + k].time, 1e-6);
+    EXPECT_LT((found[k].T_world_camera.translation() - truth[11 + k].T_world_camera.translation()).norm(), 0.02);
+  }
+  for (const auto& row : report["rows"]) {
+    const auto k = row["frame"].get<std::size_t>();
+    EXPECT_TRUE(row["error_m"].is_null());
+    EXPECT_NEAR(row["T_world_camera"][0], truth[k].T_world_camera.translation().x(), 0.02);
+    EXPECT_NEAR(row["time"], truth[k].time, 1e-6);
+    EXPECT_GT(row["score"], 0.0);
+  }
+}
+
+TEST_F(Chain, LeavesOutTheFramesThatTheMapNames) {
+  const std::string json = scratch_ / "depth.json";
+  const RunResult named =
+      must_run({"eval-depth", sequence_, "--map", map_, "--frames", "0:10", "--every", "1", "--json", json});
+  EXPECT_THAT(named.err, HasSubstr("left out are the frames that the map was made from: 0, 5, ..."));
+  EXPECT_EQ(nlohmann::json::parse(read_text(json))["frames"], 8);  // all but 0 and 5
+  fs::rename(sequence_, scratch_ / "another");
+  const RunResult other =
+      must_run({"eval-depth", scratch_ / "another", "--map", map_, "--frames", "0:10", "--every", "1", "--json", json});
+  EXPECT_THAT(other.err, HasSubstr("no frame is left out: the map was made from"));
+  EXPECT_EQ(nlohmann::json::parse(read_text(json))["frames"], 10);
+}
+
 TEST_F(Chain, ThreadsChangeNoBit) {
   train(scratch_ / "map1.ply", "1");
   EXPECT_EQ(read_text(map_), read_text(scratch_ / "map1.ply"));
@@ -217,9 +256,22 @@ TEST_F(Chain, RendersAndDraws) {
 
 TEST_F(Chain, CheckNamesTheFault) {
   EXPECT_THAT(must_run({"check", sequence_, "--gap", "10"}).out, testing::Not(HasSubstr("the data want")));
+  const std::string camera = "width: 160\nheight: 120\nfx: 130\nfy: 130\ncx: 79.5\ncy: 59.5\n";
+  write_text(sequence_ + "/camera.yaml", camera);
+  const RunResult assumed = must_run({"check", sequence_, "--gap", "10"});
+  const std::string said = "names no depth_scale: 5000 units a metre are assumed";
+  ASSERT_THAT(assumed.err, HasSubstr(said));
+  EXPECT_EQ(assumed.err.find(said), assumed.err.rfind(said));
+  write_text(sequence_ + "/camera.yaml", camera + "depth_scale: 1000\n");
+  EXPECT_THAT(run_odosplat({"check", sequence_, "--gap", "10"}).out,
+              HasSubstr("depth scale: the data want 5000, the file says 1000 (depths are read 5 times too large)"));
   write_text(sequence_ + "/camera.yaml",
              "width: 160\nheight: 120\nfx: 130\nfy: -130\ncx: 79.5\ncy: 59.5\ndepth_scale: 5000\n");
-  EXPECT_THAT(must_run({"check", sequence_, "--gap", "10"}).out, HasSubstr("fy"));
+  const RunResult flipped = run_odosplat({"check", sequence_, "--gap", "10"});
+  EXPECT_THAT(flipped.out, HasSubstr("fy"));
+  EXPECT_EQ(flipped.status, 3);
+  EXPECT_THAT(flipped.err, HasSubstr("do not agree"));
+  EXPECT_EQ(run_odosplat({"check", sequence_, "--gap", "10", "--keep-going"}).status, 0);
 }
 
 TEST_F(Chain, ChecksWithACloudInPlaceOfDepth) {
@@ -240,7 +292,8 @@ TEST_F(Chain, ChecksWithACloudInPlaceOfDepth) {
   Trajectory truth = read_trajectory(sequence_ + "/groundtruth.txt");
   for (StampedPose& pose : truth) pose.T_world_camera = pose.T_world_camera.inverse();
   write_trajectory(sequence_ + "/groundtruth.txt", truth);
-  const RunResult inverted = must_run({"check", sequence_, "--cloud", cloud_, "--json", report});
+  const RunResult inverted = run_odosplat({"check", sequence_, "--cloud", cloud_, "--json", report});
+  EXPECT_EQ(inverted.status, 3) << inverted.err;
   EXPECT_THAT(inverted.out, HasSubstr("poses: the images want inverted, the files say as stored"));
   json = nlohmann::json::parse(read_text(report));
   EXPECT_EQ(json["poses_inverted"], true);

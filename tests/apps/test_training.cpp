@@ -185,6 +185,19 @@ TEST_F(Training, CloudThatNoImageSeesIsRefused) {
   EXPECT_FALSE(fs::exists(map + ".checkpoint"));
 }
 
+TEST_F(Training, DoesNotJudgeWhatWasNotTrained) {
+  const std::string map = scratch_ / "map.ply";
+  const RunResult none = run_odosplat({"train", sequence_, "--cloud", cloud_, "--iterations", "0", "--out", map});
+  ASSERT_EQ(none.status, 0) << none.err;
+  EXPECT_THAT(none.out, testing::Not(HasSubstr("PSNR 0.00")));
+  EXPECT_THAT(none.out, HasSubstr("the map is not judged: no step of training"));
+  EXPECT_THAT(run_odosplat({"map", "info", map}).out, HasSubstr("not judged: no step of training"));
+  const RunResult single =
+      run_odosplat({"train", sequence_, "--cloud", cloud_, "--iterations", "30", "--every", "1000", "--out", map});
+  ASSERT_EQ(single.status, 0) << single.err;
+  EXPECT_THAT(single.out, HasSubstr("the map is not judged: it was trained on 1 image only"));
+}
+
 TEST_F(Training, SaysWhatTheMapIsWorth) {
   const std::string map = scratch_ / "map.ply";
   const std::string report = scratch_ / "report.json";

@@ -74,6 +74,41 @@ TEST(JudgeMap, NamesFaultAndLikelyCause) {
   EXPECT_FALSE(judge_map({}, {}, 0.1, std::nullopt).good);
 }
 
+TEST(JudgeMap, DoesNotJudgeWhatHasNotBeenShown) {
+  for (const std::size_t n : {1U, 2U}) {
+    const MapQuality few =
+        judge_map(even_views(n), {}, 0.1, std::nullopt, {.iterations = 400, .usual_iterations = 400});
+    EXPECT_FALSE(few.good);
+    EXPECT_THAT(few.verdict, testing::StartsWith("not judged: it was trained on " + std::to_string(n) + " image"));
+  }
+  const MapQuality untrained =
+      judge_map(even_views(10), {}, 0.1, std::nullopt, {.iterations = 0, .usual_iterations = 4000});
+  EXPECT_FALSE(untrained.good);
+  EXPECT_THAT(untrained.verdict, testing::StartsWith("not judged: no step of training"));
+  EXPECT_THAT(judge_map(even_views(10), {}, 0.1, std::nullopt).verdict,
+              HasSubstr("dB on the 10 images it was trained on"));
+}
+
+TEST(JudgeMap, NamesOnlyCausesThatTheEvidenceBears) {
+  auto low = even_views(10);
+  for (ViewQuality& view : low) view.psnr_db = 12.0;
+  const TrainingEvidence full{.iterations = 4000, .usual_iterations = 4000, .gaussians = 9000, .points = 9000};
+  const std::string unknown = judge_map(low, {}, 0.1, std::nullopt, full).verdict;
+  EXPECT_THAT(unknown, HasSubstr("cause not known"));
+  EXPECT_THAT(unknown, testing::Not(HasSubstr("likely cause")));
+  TrainingEvidence brief = full;
+  brief.iterations = 100;
+  const std::string early = judge_map(low, {}, 0.1, std::nullopt, brief).verdict;
+  EXPECT_THAT(early, HasSubstr("likely cause: training stopped after 100 of the preset's 4000 iterations"));
+  EXPECT_THAT(early, testing::Not(HasSubstr("camera")));
+  TrainingEvidence small = full;
+  small.budget = small.gaussians = 500;
+  const std::string budget = judge_map(low, {}, 0.1, std::nullopt, small).verdict;
+  EXPECT_THAT(budget, HasSubstr("likely cause: a budget of 500 Gaussians for a cloud of 9000 points"));
+  EXPECT_THAT(budget, testing::Not(HasSubstr("poses")));
+  EXPECT_THAT(judge_map(low, {}, 0.9, std::nullopt, full).verdict, HasSubstr("likely cause: a cloud of another place"));
+}
+
 TEST(MapQuality, LinesGiveBackWhatTheyWereMadeOf) {
   CloudCoverage coverage{0.25, 7.0, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}};
   const MapQuality written = judge_map(even_views(10), coverage, 0.125, std::nullopt);
@@ -153,6 +188,21 @@ TEST(ColorConsistency, NamesWhatIsWrong) {
     const auto doubt = geometry_doubt(ColorConsistency(cloud, views));
     ASSERT_TRUE(doubt);
     EXPECT_NEAR(doubt->hypothesis.focal, 0.9, 0.051) << doubt->hypothesis.words();
+  }
+  {  // of another shape: nothing that is tried makes it fit
+    WrongViews views;
+    PointCloud other = cloud;
+    for (Eigen::Vector3f& p : other.points) p = Eigen::Vector3f(p.y(), 0.7F * p.x(), 1.5F + 0.5F * p.z() * p.x());
+    const auto doubt = geometry_doubt(ColorConsistency(other, views));
+    EXPECT_FALSE(doubt) << doubt->hypothesis.words() << " " << doubt->instead;
+  }
+  for (const double times : {1000.0, 100.0}) {
+    WrongViews views;
+    PointCloud large = cloud;
+    for (Eigen::Vector3f& p : large.points) p *= static_cast<float>(times);
+    const auto doubt = geometry_doubt(ColorConsistency(large, views));
+    ASSERT_TRUE(doubt) << times;
+    EXPECT_EQ(doubt->hypothesis.unit, times) << doubt->hypothesis.words();
   }
   {
     WrongViews views;

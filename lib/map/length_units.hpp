@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace odosplat {
+
+/// What is wrong where the coordinates of a cloud are `times` as large as those of the poses.
+struct LengthUnit {
+  double times;
+  const char* words;
+};
+
+extern const std::array<LengthUnit, 7> length_units;
+
+/// "the cloud is in mm" for 1000; empty if no unit is within 2 % of it.
+std::string unit_words(double times);
+
+}  // namespace odosplat
