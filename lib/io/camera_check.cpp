@@ -100,7 +100,10 @@ void check_distortion(const Camera& camera, const std::vector<double>& distortio
     throw InputError("distortion", "is not finite");
   }
   const double radius = fold_radius(camera, distortion);
-  if (std::isinf(radius)) return;
+  // Of wide lenses with one coefficient it is the corners that no ray reaches: they are left out (Undistorter).
+  const double to_sides =
+      std::max({camera.cx, camera.width - 1.0 - camera.cx, camera.cy, camera.height - 1.0 - camera.cy});
+  if (radius >= to_sides) return;
   std::string values;
   for (const double d : distortion) values += (values.empty() ? "[" : ", ") + number(d);
   throw InputError("distortion", values + "] folds within the image: about " + number(std::floor(radius)) +

@@ -19,7 +19,8 @@ constexpr double most_gamma = 10.0;
 }  // namespace camera_limits
 
 /// Throws InputError(key, fault) for a camera that no lens has: what Camera::check refuses, a distortion that is not
-/// finite or not one-to-one over the image, a gamma, depth_scale or fps (where they are said) out of range.
+/// finite or not one-to-one over the image but for its corners (fold_radius), a gamma, depth_scale or fps (where they
+/// are said) out of range.
 void check_camera(const CameraFile& file);
 
 /// The same, with the camera's file before the key: InputError(name, key, fault).

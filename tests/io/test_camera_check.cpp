@@ -79,6 +79,16 @@ TEST(CameraCheck, LensesOfDataSetsPass) {
   EXPECT_EQ(fold_radius({640, 480, 500.0, 500.0, 320.0, 240.0}, {0.5, 0.0, 0.0, 0.0}), none);  // pincushion
 }
 
+TEST(CameraCheck, AFoldInTheCornersAlonePasses) {
+  const Camera camera{640, 480, 384.0, 384.0, 319.5, 239.5};
+  const double radius = fold_radius(camera, {-0.2, 0.0, 0.0, 0.0});
+  EXPECT_GT(radius, 320.0);
+  EXPECT_LT(radius, 400.0);
+  EXPECT_NO_THROW(parse_camera_file("c",
+                                    "width: 640\nheight: 480\nfx: 384\nfy: 384\ncx: 319.5\ncy: 239.5\n"
+                                    "distortion: [-0.2, 0, 0, 0]\n"));
+}
+
 // The fold stands where a grid of rays says that the distorted radius is largest.
 TEST(CameraCheck, FoldsWhereTheRadiusTurnsBack) {
   const Camera camera{640, 480, 400.0, 400.0, 319.5, 239.5};
