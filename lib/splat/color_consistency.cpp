@@ -185,7 +185,7 @@ std::optional<GeometryDoubt> geometry_doubt(const ColorConsistency& consistency)
     return true;
   };
   tried({.inverted = true});
-  for (const LengthUnit& unit : length_units) tried({.unit = unit.times});
+  for (const CoordinateUnit& unit : length_units) tried({.unit = unit.times});
   for (const double focal : {0.75, 0.8, 0.85, 0.9, 0.95, 1.05, 1.1, 1.15, 1.25, 1.35}) tried({.focal = focal});
   GeometryHypothesis moved;
   double least = given.unexplained;
