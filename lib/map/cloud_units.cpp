@@ -31,7 +31,7 @@ std::optional<double> likely_unit(CloudMaterial& material, const CloudCheckRepor
     double least = options.max_error;
     for (const CloudReading& reading : readings) {
       const CloudRow given = measure_row(material, material.world(reading.mirrored), reading, pairs, fewer);
-      for (const LengthUnit& unit : length_units) {
+      for (const CoordinateUnit& unit : length_units) {
         material.scale_cloud(1.0 / unit.times);
         const PatchWorld world = material.world(reading.mirrored);
         const CloudRow row = measure_row(material, world, reading, pairs, fewer);

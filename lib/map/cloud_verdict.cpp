@@ -157,12 +157,15 @@ std::string control_text(const CloudControl& control) {
 }
 
 std::string doubt_text(const CloudCheckReport& report, const CloudCheckOptions& options) {
-  // Patches agree over the whole gap, and as well with a cloud that is infinitely far: nothing moved against it.
-  const bool still = report.largest_gap_error <= options.max_error && !beats(report.given.cloud, report.given.distant);
+  // Patches agree over the whole gap even with a cloud that is far off: nothing moved against it.
+  const CloudControl& given = report.given;
+  const bool controls_lose = beats(given.cloud, given.flat) && beats(given.cloud, given.distant);
+  const bool still = report.largest_gap_error <= options.max_error &&
+                     given.distant.relative_error <= options.max_error && !controls_lose;
   const std::string controls = " (" + control_text(report.given) + ")";
   if (still) {
     return "the images do not tell whether the cloud fits: the camera hardly moves against the cloud's distances" +
-           controls + "; more motion, or a cloud in another unit than the poses, would explain it";
+           controls;
   }
   return "the cloud does not fit these images" + controls +
          "; cause not decidable: a cloud of another place, turned, in another unit or far off, poses or a camera that "

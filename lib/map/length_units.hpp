@@ -8,12 +8,12 @@
 namespace odosplat {
 
 /// What is wrong where the coordinates of a cloud are `times` as large as those of the poses.
-struct LengthUnit {
+struct CoordinateUnit {
   double times;
   const char* words;
 };
 
-extern const std::array<LengthUnit, 7> length_units;
+extern const std::array<CoordinateUnit, 7> length_units;
 
 /// "the cloud is in mm" for 1000; empty if no unit is within 2 % of it.
 std::string unit_words(double times);

@@ -20,7 +20,8 @@ constexpr double surroundings_px = 4.0;  // standard deviation of the window, in
 constexpr std::size_t least_points = 200;
 // A hypothesis must leave at most this share of what the files leave: the rest is chance and the search's own gain.
 constexpr double clearly_better = 0.8;
-constexpr double least_gain = 0.05;  // and this much less: next to nothing is no doubt, whatever the ratio
+constexpr double least_spread = 0.5;  // of the points over the images, of what it is as given
+constexpr double least_gain = 0.05;   // and this much less: next to nothing is no doubt, whatever the ratio
 
 }  // namespace
 
@@ -96,7 +97,20 @@ struct Correlation {
 struct Observation {
   std::size_t point;
   double detail;
+  Eigen::Vector2d pixel;
 };
+
+double spread_of(const std::vector<std::vector<Observation>>& values) {
+  double squares = 0.0;
+  double count = 0.0;
+  for (const auto& of_view : values) {
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    for (const Observation& o : of_view) mean += o.pixel / static_cast<double>(of_view.size());
+    for (const Observation& o : of_view) squares += (o.pixel - mean).squaredNorm();
+    count += static_cast<double>(of_view.size());
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
 
 }  // namespace
 
@@ -117,7 +131,7 @@ ColorConsistency::Value ColorConsistency::of(const GeometryHypothesis& hypothesi
       for (const SeenPoints::Point& p : points_.in(camera, T_world_camera)) {
         const float u = std::clamp(p.u, 0.0F, static_cast<float>(camera.width - 1));
         const float v = std::clamp(p.v, 0.0F, static_cast<float>(camera.height - 1));
-        values[at].push_back({p.index, static_cast<double>(bilinear(view.detail, u, v))});
+        values[at].push_back({p.index, static_cast<double>(bilinear(view.detail, u, v)), Eigen::Vector2d(p.u, p.v)});
         if (!grays_.empty())
           with_cloud[at].add(static_cast<double>(grays_[p.index]), static_cast<double>(bilinear(view.gray, u, v)));
       }
@@ -134,6 +148,7 @@ ColorConsistency::Value ColorConsistency::of(const GeometryHypothesis& hypothesi
     }
   }
   Value result;
+  result.spread_px = spread_of(values);
   double within = 0.0;
   double all = 0.0;
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -163,12 +178,14 @@ std::optional<GeometryDoubt> geometry_doubt(const ColorConsistency& consistency)
   const auto tried = [&](const GeometryHypothesis& hypothesis) {
     const ColorConsistency::Value value = consistency.of(hypothesis);
     if (2 * value.points < given.points || value.unexplained >= best.instead) return false;
+    // A cloud that is shrunk to a spot looks alike from everywhere.
+    if (value.spread_px < least_spread * given.spread_px) return false;
     best.hypothesis = hypothesis;
     best.instead = value.unexplained;
     return true;
   };
   tried({.inverted = true});
-  for (const LengthUnit& unit : length_units) tried({.unit = unit.times});
+  for (const CoordinateUnit& unit : length_units) tried({.unit = unit.times});
   for (const double focal : {0.75, 0.8, 0.85, 0.9, 0.95, 1.05, 1.1, 1.15, 1.25, 1.35}) tried({.focal = focal});
   GeometryHypothesis moved;
   double least = given.unexplained;

@@ -50,6 +50,7 @@ class ColorConsistency {
     // images' variance that the cloud's colours do not explain.
     double unexplained = 1.0;
     std::size_t points = 0;  // seen by two images or more
+    double spread_px = 0.0;  // of the points in the images: standard deviation, both directions together
   };
 
   ColorConsistency(const PointCloud& cloud, TrainingViews& views, const ColorConsistencyOptions& options = {});

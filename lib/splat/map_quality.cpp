@@ -143,7 +143,8 @@ std::string likely_cause(const MapQuality& q, const Judgement& j, const std::opt
   } else if (j.inconsistent && q.consistency > no_relation) {
     add("a cloud of another place than the images, or turned, or poses that are not these images'");
   } else if (j.inconsistent) {
-    add("a camera file that is not this camera's, depth that is not registered to colour, or wrong poses");
+    add("a camera file that is not this camera's, depth that is not registered to colour, a cloud that is turned or "
+        "off, or wrong poses");
   }
   // A short training does not make images disagree with a cloud.
   const bool of_training = j.unlike && !j.inconsistent && !j.unseen;
