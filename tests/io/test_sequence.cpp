@@ -299,12 +299,13 @@ TEST(SequenceOpen, SaysWhatStandsInThePlaceOfAnImage) {
   put_tum(temp);
   const std::string image = temp / "rgb/10.100.png";
   std::filesystem::remove(image);
-  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }), image + ": is missing");
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()).color(1); }), image + ": is missing");
   ASSERT_EQ(mkfifo(image.c_str(), 0600), 0);
-  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }), image + ": is not a regular file but a pipe (FIFO)");
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()).color(1); }),
+            image + ": is not a regular file but a pipe (FIFO)");
   std::filesystem::remove(image);
   std::filesystem::create_directory(image);
-  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }), image + ": is not a regular file but a folder");
+  EXPECT_EQ(error_of([&] { Sequence::open(temp.path()).color(1); }), image + ": is not a regular file but a folder");
 }
 
 TEST(SequenceOpen, LimitsThePixelsOfAnImage) {
