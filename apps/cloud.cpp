@@ -15,6 +15,7 @@
 #include "odosplat/map/cloud_builder.hpp"
 #include "sequence_flags.hpp"
 #include "support.hpp"
+#include "unreadable_frames.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -36,8 +37,7 @@ void add_frames(const Sequence& sequence, const CloudFlags& flags, CloudBuilder&
   const std::vector<std::size_t> frames = posed_frames(sequence, flags.every, range);
   Progress progress("cloud " + sequence.name(), static_cast<long>(frames.size()));
   long done = 0;
-  std::size_t unreadable = 0;
-  std::string first_fault;
+  UnreadableFrames unreadable;
   for (const std::size_t i : frames) {
     if (interrupted()) throw Interrupted();
     if (sequence.has_depth(i) && sequence.T_world_depth(i)) {
@@ -46,8 +46,8 @@ void add_frames(const Sequence& sequence, const CloudFlags& flags, CloudBuilder&
       try {
         depth = sequence.depth(i);
         color = sequence.color(i);
-      } catch (const InputError& e) {  // one damaged file of many
-        if (unreadable++ == 0) first_fault = e.what();
+      } catch (const InputError& e) {
+        unreadable.add(e.what());
         depth.release();
       }
       if (!depth.empty()) builder.add(depth, color, sequence.camera(), *sequence.T_world_depth(i));
@@ -55,11 +55,7 @@ void add_frames(const Sequence& sequence, const CloudFlags& flags, CloudBuilder&
     progress.update(++done, std::to_string(builder.voxels()) + " points");
   }
   progress.finish();
-  if (unreadable == 0) return;
-  const std::string share = std::to_string(unreadable) + " of " + std::to_string(frames.size()) +
-                            " frames cannot be read, such as " + first_fault;
-  if (unreadable == frames.size()) throw InputError(share);
-  log_warning(share + "; they are left out");
+  unreadable.report(frames.size());
 }
 
 PointCloud cloud_of_sequences(const CloudFlags& flags) {

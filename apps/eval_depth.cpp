@@ -18,6 +18,7 @@
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/odometry/frame.hpp"
 #include "odosplat/odometry/pixel_selector.hpp"
+#include "unreadable_frames.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -80,11 +81,19 @@ EvalDepthOutcome evaluate_depth(const Common& common, const EvalDepthJob& job) {
   ViewRequest request;
   request.color = true;
   Progress progress("eval-depth", static_cast<long>(frames.size()));
+  UnreadableFrames unreadable;
   for (const std::size_t i : frames) {
     if (interrupted()) throw Interrupted();
-    const DepthImage truth = sequence.depth(i);
-    const ColorImage color = sequence.color(i);
-    opened.show_frame(sequence, i);
+    DepthImage truth;
+    ColorImage color;
+    try {
+      truth = sequence.depth(i);
+      color = sequence.color(i);
+      opened.show_frame(sequence, i);
+    } catch (const InputError& e) {
+      unreadable.add(e.what());
+      continue;
+    }
     const ViewImages images = opened.view->render(sequence.camera(), *sequence.T_world_camera(i), request);
     all.add(images.depth, truth, {}, images.sigma);
     selected.add(images.depth, truth, selected_mask(selector, to_gray(color), sequence.camera()), images.sigma);
@@ -97,6 +106,7 @@ EvalDepthOutcome evaluate_depth(const Common& common, const EvalDepthJob& job) {
     if (images.color.empty()) outcome.psnr_db = outcome.ssim = std::numeric_limits<double>::quiet_NaN();
   }
   progress.finish();
+  unreadable.report(frames.size());
   outcome.all = all.result();
   outcome.selected = selected.result();
   outcome.edges = edges.result();

@@ -10,6 +10,7 @@
 
 #include "json_text.hpp"
 #include "map_views.hpp"
+#include "no_result.hpp"
 #include "number_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
@@ -22,6 +23,7 @@
 #include "places.hpp"
 #include "sequence_flags.hpp"
 #include "training_frames.hpp"
+#include "unreadable_frames.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -192,6 +194,24 @@ void print_found(const Summary& s) {
   print("\n");
 }
 
+void write_report(const std::string& file, const Summary& s, const std::vector<Row>& rows, const Sequence& sequence,
+                  std::size_t places, double index_s) {
+  const auto if_judged = [&](int count) { return s.judged > 0 ? nlohmann::ordered_json(count) : nullptr; };
+  nlohmann::ordered_json json{{"views", s.views},
+                              {"found", s.found},
+                              {"with_truth", s.judged},
+                              {"within_2cm_1deg", if_judged(s.good)},
+                              {"beyond_10cm", if_judged(s.wrong)},
+                              {"refused", s.refused},
+                              {"places", places},
+                              {"index_seconds", index_s},
+                              {"seconds", json_of(s.seconds)},
+                              {"cpu_seconds", json_of(s.cpu_seconds)},
+                              {"rows", nlohmann::ordered_json::array()}};
+  for (const Row& row : rows) json["rows"].push_back(json_of(row, sequence));
+  write_file_atomically(file, json_text(json));
+}
+
 void run(const Common& common, const RelocaliseJob& job) {
   const MadeFolders made = ensure_output_if_given(job.json);
   const MadeFolders made_for_poses = ensure_output_if_given(job.out);
@@ -207,12 +227,18 @@ void run(const Common& common, const RelocaliseJob& job) {
   const double index_s = watch.seconds();
   std::vector<Row> rows;
   Progress progress("relocalise", static_cast<long>(frames.size()));
+  UnreadableFrames unreadable;
   for (const std::size_t i : frames) {
     if (interrupted()) throw Interrupted();
-    rows.push_back(look_up(relocalizer, sequence, i));
-    progress.update(static_cast<long>(rows.size()));
+    try {
+      rows.push_back(look_up(relocalizer, sequence, i));
+    } catch (const InputError& e) {
+      unreadable.add(e.what());
+    }
+    progress.update(static_cast<long>(rows.size() + unreadable.count()));
   }
   progress.finish();
+  unreadable.report(frames.size());
   if (opened.device) print_profile(common, *opened.device);
   const Summary s = summarise(rows);
   print("%zu places of %zu, rendered in %.2f s\n", kept, places.size(), index_s);
@@ -221,21 +247,11 @@ void run(const Common& common, const RelocaliseJob& job) {
         percentile(s.seconds, 50.0), percentile(s.seconds, 95.0), s.seconds.back(), percentile(s.cpu_seconds, 50.0),
         percentile(s.cpu_seconds, 95.0), s.cpu_seconds.back());
   if (!job.out.empty()) write_trajectory(job.out, found_poses(rows, sequence));
-  if (job.json.empty()) return;
-  const auto if_judged = [&](int count) { return s.judged > 0 ? nlohmann::ordered_json(count) : nullptr; };
-  nlohmann::ordered_json json{{"views", s.views},
-                              {"found", s.found},
-                              {"with_truth", s.judged},
-                              {"within_2cm_1deg", if_judged(s.good)},
-                              {"beyond_10cm", if_judged(s.wrong)},
-                              {"refused", s.refused},
-                              {"places", kept},
-                              {"index_seconds", index_s},
-                              {"seconds", json_of(s.seconds)},
-                              {"cpu_seconds", json_of(s.cpu_seconds)},
-                              {"rows", nlohmann::ordered_json::array()}};
-  for (const Row& row : rows) json["rows"].push_back(json_of(row, sequence));
-  write_file_atomically(job.json, json_text(json));
+  if (!job.json.empty()) write_report(job.json, s, rows, sequence, kept, index_s);
+  if (s.found == 0) {
+    throw NoResult("none of " + std::to_string(s.views) +
+                   " images found: the map does not show what they show, or the camera is wrong");
+  }
 }
 
 }  // namespace

@@ -2,11 +2,10 @@
 // Copyright 2026 The odosplat authors
 #include "train_views.hpp"
 
-#include <algorithm>
-
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/parallel.hpp"
+#include "unreadable_frames.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -30,8 +29,7 @@ std::vector<std::string> image_faults(const Sequence& sequence, const std::vecto
 
 SequenceViews::SequenceViews(const std::vector<std::string>& paths, const SequenceOptions& options, int every,
                              const FrameRange& range) {
-  std::size_t unreadable = 0;
-  std::string first_fault;
+  UnreadableFrames unreadable;
   for (const std::string& path : paths) {
     sequences_.push_back(Sequence::open(path, options));
     const std::vector<std::size_t> frames = posed_frames(sequences_.back(), every, range);
@@ -39,16 +37,12 @@ SequenceViews::SequenceViews(const std::vector<std::string>& paths, const Sequen
     for (std::size_t k = 0; k < frames.size(); ++k) {
       if (faults[k].empty()) {
         frames_.push_back({sequences_.size() - 1, frames[k]});
-      } else if (unreadable++ == 0) {
-        first_fault = faults[k];
+      } else {
+        unreadable.add(faults[k]);
       }
     }
   }
-  if (unreadable == 0) return;
-  const std::string share = std::to_string(unreadable) + " of " + std::to_string(unreadable + frames_.size()) +
-                            " images cannot be read, such as " + first_fault;
-  if (frames_.empty()) throw InputError(share);
-  log_warning(share + "; they are left out");
+  unreadable.report(unreadable.count() + frames_.size());
 }
 
 DepthImage SequenceViews::depth(int i) {

@@ -194,6 +194,25 @@ TEST_F(Chain, LooksUpImagesWhoseTruePosesNobodyKnows) {
   }
 }
 
+TEST_F(Chain, LooksUpNothingThatTheMapDoesNotShow) {
+  cv::Mat3b noise(120, 160);
+  cv::RNG random(3);
+  random.fill(noise, cv::RNG::UNIFORM, 0, 256);
+  write_rgb8(sequence_ + "/rgb/0012.png", noise);
+  const std::string damaged = sequence_ + "/rgb/0011.png";
+  write_text(damaged, read_text(damaged).substr(0, 1000));
+  const std::string json = scratch_ / "found.json";
+  const RunResult none = run_odosplat(
+      {"relocalise", sequence_, "--map", map_, "--frames", "11:13", "--skip-every", "none", "--json", json});
+  EXPECT_EQ(none.status, 3) << none.err;
+  EXPECT_THAT(none.err, HasSubstr("1 of 2 frames cannot be read, such as " + damaged));
+  EXPECT_THAT(none.err, HasSubstr("none of 1 images found"));
+  EXPECT_EQ(nlohmann::json::parse(read_text(json))["found"], 0);
+  const RunResult depth =
+      must_run({"eval-depth", sequence_, "--map", map_, "--frames", "10:14", "--every", "1", "--skip-every", "none"});
+  EXPECT_THAT(depth.err, HasSubstr("1 of 4 frames cannot be read, such as " + damaged));
+}
+
 TEST_F(Chain, LeavesOutTheFramesThatTheMapNames) {
   const std::string json = scratch_ / "depth.json";
   const RunResult named =

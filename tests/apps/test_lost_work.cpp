@@ -125,7 +125,7 @@ TEST_F(LostWork, ADamagedOrMissingImageAmongManyIsLeftOutOfTraining) {
                                        cloud,   "--iterations", "20",      "--out", scratch_ / "map.ply"};
   const RunResult run = run_odosplat(words);
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("2 of 6 images cannot be read, such as " + image("rgb", 10)));
+  EXPECT_THAT(run.err, HasSubstr("2 of 6 frames cannot be read, such as " + image("rgb", 10)));
   EXPECT_THAT(run.err, HasSubstr("1 of 30 listed images are not there, such as " + image("rgb", 15) + ": is missing"));
   EXPECT_THAT(run.err, HasSubstr(image("depth", 20)));
 }
