@@ -164,7 +164,7 @@ TEST_F(Align, RefusesWhatCannotBeTrusted) {
   expect_refused(run_odosplat({"align", "--poses", colmap_, "--cloud", scratch_ / "no.ply", "--out", out_}), "no.ply");
   const RunResult own = run_odosplat({"align", "--poses", sequence_, "--cloud", cloud_, "--out", sequence_});
   EXPECT_EQ(own.status, 2);
-  EXPECT_THAT(own.err, HasSubstr("is the sequence's own folder"));
+  EXPECT_THAT(own.err, HasSubstr("is also read"));
 }
 
 }  // namespace
