@@ -2,7 +2,6 @@
 // Copyright 2026 The odosplat authors
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <numbers>
 
@@ -60,10 +59,6 @@ void print_result(const AlignFlags& flags, const Sim3IcpResult& r, std::size_t f
 }
 
 void run(const AlignFlags& flags) {
-  std::error_code missing;
-  if (std::filesystem::equivalent(flags.out, flags.poses.path, missing)) {
-    throw InputError(flags.out, "is the sequence's own folder; name another");
-  }
   const MadeFolders made = ensure_output_folder(flags.out);
   const Similarity guess = first_guess(flags);
   const Sequence sequence = Sequence::open(flags.poses.path, flags.poses.options);

@@ -25,8 +25,8 @@ struct GeometryHypothesis {
 };
 
 /// ColorConsistency::Value::unexplained above which images and cloud do not belong together. Chosen, not fitted: three
-/// rooms as they should be have 0.04 to 0.13; another camera's focal length and depth 0.34; a cloud that is turned by
-/// 90 degrees 0.46 to 0.87, one in mm or cm 0.84 to 0.88.
+/// rooms as they should be have 0.04 to 0.10; a cloud that is turned by 90 degrees 0.46 to 0.87, one in mm or cm 0.84
+/// to 0.88.
 inline constexpr double most_unexplained = 0.25;
 
 struct ColorConsistencyOptions {

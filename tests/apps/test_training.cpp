@@ -51,6 +51,15 @@ class Training : public testing::Test {
   std::string cloud_ = scratch_ / "cloud.ply";
 };
 
+TEST_F(Training, KeepsTheCheckpointOfAnEarlierRun) {
+  const std::string map = scratch_ / "map.ply";
+  write_text(map + ".checkpoint", "of an earlier run");
+  const RunResult run = run_odosplat(words(map));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(read_text(map + ".checkpoint.old"), "of an earlier run");
+  EXPECT_FALSE(fs::exists(map + ".checkpoint"));
+}
+
 TEST_F(Training, KilledRunsEndWithTheSameBits) {
   const std::string whole = scratch_ / "whole.ply";
   ASSERT_EQ(run_odosplat(words(whole, {"--densify", "relocate", "--budget", "9000"})).status, 0);
