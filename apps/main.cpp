@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "command_line.hpp"
+#include "apps/command/command_line.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include "support.hpp"
+#include "apps/command/run_program.hpp"
+#include "apps/command/support.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app;

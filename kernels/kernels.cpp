@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "odosplat/kernels/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 #include <map>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "odosplat/viewer/color_map.hpp"
+#include "viewer/color_map.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "odosplat/viewer/egl_context.hpp"
+#include "viewer/egl_context.hpp"
 
 #define EGL_NO_X11
 #include <EGL/egl.h>

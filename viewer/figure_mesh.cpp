@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "odosplat/viewer/figure_mesh.hpp"
+#include "viewer/figure_mesh.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

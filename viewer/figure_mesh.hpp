@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "odosplat/viewer/color_map.hpp"
+#include "viewer/color_map.hpp"
 
 namespace odosplat {
 

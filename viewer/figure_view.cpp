@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "odosplat/viewer/figure_view.hpp"
+#include "viewer/figure_view.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

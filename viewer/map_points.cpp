@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "odosplat/viewer/map_points.hpp"
+#include "viewer/map_points.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "odosplat/cloud/cloud_filters.hpp"
 #include "odosplat/core/error.hpp"
-#include "odosplat/map/cloud_filters.hpp"
 
 namespace odosplat {
 namespace {

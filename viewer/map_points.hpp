@@ -7,7 +7,7 @@
 
 #include "odosplat/core/point_cloud.hpp"
 #include "odosplat/core/trajectory.hpp"
-#include "odosplat/viewer/offscreen.hpp"
+#include "viewer/offscreen.hpp"
 
 namespace odosplat {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "odosplat/viewer/offscreen.hpp"
+#include "viewer/offscreen.hpp"
 
 #include <vtkActor.h>
 #include <vtkCallbackCommand.h>
@@ -27,7 +27,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "odosplat/viewer/egl_context.hpp"
+#include "viewer/egl_context.hpp"
 
 namespace odosplat {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "odosplat/viewer/color_map.hpp"
-#include "odosplat/viewer/figure_mesh.hpp"
-#include "odosplat/viewer/figure_view.hpp"
+#include "viewer/color_map.hpp"
+#include "viewer/figure_mesh.hpp"
+#include "viewer/figure_view.hpp"
 
 namespace odosplat {
 

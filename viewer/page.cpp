@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "odosplat/viewer/page.hpp"
+#include "viewer/page.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "odosplat/core/error.hpp"
-#include "odosplat/viewer/text.hpp"
+#include "viewer/text.hpp"
 
 namespace odosplat {
 namespace {

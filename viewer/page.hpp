@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "odosplat/core/image.hpp"
-#include "odosplat/viewer/color_map.hpp"
+#include "viewer/color_map.hpp"
 
 namespace odosplat {
 

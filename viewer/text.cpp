@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "odosplat/viewer/text.hpp"
+#include "viewer/text.hpp"
 
 #include <vtkFreeTypeTools.h>
 #include <vtkImageData.h>

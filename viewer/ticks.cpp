@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "odosplat/viewer/ticks.hpp"
+#include "viewer/ticks.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "child_process.hpp"
+#include "apps/benchmark/child_process.hpp"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -16,8 +16,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "foreign_text.hpp"
-#include "process_tree.hpp"
+#include "apps/benchmark/foreign_text.hpp"
+#include "apps/benchmark/process_tree.hpp"
 
 namespace odosplat::apps {
 namespace {

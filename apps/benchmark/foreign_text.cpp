@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "foreign_text.hpp"
+#include "apps/benchmark/foreign_text.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "gather.hpp"
+#include "apps/benchmark/gather.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,14 +10,14 @@
 #include <thread>
 #include <utility>
 
-#include "foreign_text.hpp"
-#include "job_outputs.hpp"
-#include "job_runner.hpp"
+#include "apps/benchmark/foreign_text.hpp"
+#include "apps/benchmark/job_outputs.hpp"
+#include "apps/benchmark/job_runner.hpp"
+#include "apps/input/sequence_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
-#include "odosplat/io/sequence.hpp"
-#include "odosplat/io/trajectory_file.hpp"
-#include "sequence_flags.hpp"
+#include "odosplat/io/sequence/sequence.hpp"
+#include "odosplat/io/trajectory/trajectory_file.hpp"
 
 namespace odosplat::apps {
 namespace {

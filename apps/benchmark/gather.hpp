@@ -2,8 +2,8 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include "plan.hpp"
-#include "results.hpp"
+#include "apps/benchmark/plan.hpp"
+#include "apps/benchmark/report/results.hpp"
 
 namespace odosplat::apps {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "job.hpp"
+#include "apps/benchmark/job.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "checksum.hpp"
-#include "foreign_text.hpp"
-#include "json_text.hpp"
+#include "apps/benchmark/foreign_text.hpp"
+#include "apps/command/json_text.hpp"
+#include "odosplat/core/checksum.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
 

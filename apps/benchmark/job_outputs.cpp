@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "job_outputs.hpp"
+#include "apps/benchmark/job_outputs.hpp"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "foreign_text.hpp"
+#include "apps/benchmark/foreign_text.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
 

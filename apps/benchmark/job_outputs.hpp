@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "job.hpp"
+#include "apps/benchmark/job.hpp"
 
 namespace odosplat::apps {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "job_runner.hpp"
+#include "apps/benchmark/job_runner.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -10,14 +10,15 @@
 #include <set>
 #include <thread>
 
-#include "child_process.hpp"
-#include "foreign_text.hpp"
-#include "job_outputs.hpp"
+#include "apps/benchmark/child_process.hpp"
+#include "apps/benchmark/foreign_text.hpp"
+#include "apps/benchmark/job_outputs.hpp"
+#include "apps/command/interrupt.hpp"
+#include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
-#include "support.hpp"
 
 namespace odosplat::apps {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "job.hpp"
-#include "options.hpp"
+#include "apps/benchmark/job.hpp"
+#include "apps/benchmark/options.hpp"
 
 namespace odosplat::apps {
 

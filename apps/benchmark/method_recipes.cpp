@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "method_recipes.hpp"
+#include "apps/benchmark/method_recipes.hpp"
 
 namespace odosplat::apps {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "plan.hpp"
+#include "apps/benchmark/plan.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 
-#include "method_recipes.hpp"
-#include "odosplat/io/sequence.hpp"
-#include "protocol.hpp"
+#include "apps/benchmark/method_recipes.hpp"
+#include "apps/benchmark/protocol.hpp"
+#include "odosplat/io/sequence/sequence.hpp"
 
 namespace odosplat::apps {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "job.hpp"
-#include "options.hpp"
-#include "suite.hpp"
+#include "apps/benchmark/job.hpp"
+#include "apps/benchmark/options.hpp"
+#include "apps/benchmark/suite.hpp"
 
 namespace odosplat::apps {
 

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "json_text.hpp"
+#include "apps/benchmark/plan.hpp"
+#include "apps/command/json_text.hpp"
+#include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
-#include "plan.hpp"
-#include "support.hpp"
 
 namespace odosplat::apps {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "process_tree.hpp"
+#include "apps/benchmark/process_tree.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>

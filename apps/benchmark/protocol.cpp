@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "protocol.hpp"
+#include "apps/benchmark/protocol.hpp"
 
 #include <algorithm>
 
-#include "method_recipes.hpp"
+#include "apps/benchmark/method_recipes.hpp"
 #include "odosplat/core/error.hpp"
 
 namespace odosplat::apps {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "options.hpp"
-#include "suite.hpp"
+#include "apps/benchmark/options.hpp"
+#include "apps/benchmark/suite.hpp"
 
 namespace odosplat::apps {
 

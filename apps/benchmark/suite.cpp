@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "suite.hpp"
+#include "apps/benchmark/suite.hpp"
 
 #include <yaml-cpp/yaml.h>
 
@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <map>
 
-#include "foreign_text.hpp"
+#include "apps/benchmark/foreign_text.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
 

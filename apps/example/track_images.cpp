@@ -11,7 +11,7 @@
 #include <exception>
 #include <odosplat/compute/context.hpp>
 #include <odosplat/core/error.hpp>
-#include <odosplat/io/camera_file.hpp>
+#include <odosplat/io/camera/camera_file.hpp>
 #include <odosplat/odometry/odometry.hpp>
 #include <odosplat/splat/gaussian_view.hpp>
 #include <odosplat/splat/map_file.hpp>

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "odosplat/core/camera.hpp"
+#include "odosplat/camera/camera.hpp"
 #include "odosplat/core/image.hpp"
 #include "odosplat/core/se3.hpp"
 

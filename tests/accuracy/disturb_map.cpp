@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "disturb_map.hpp"
+#include "tests/accuracy/disturb_map.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
 
 #include "odosplat/core/random.hpp"
-#include "odosplat/io/cloud_file.hpp"
+#include "odosplat/io/cloud/cloud_file.hpp"
 #include "odosplat/splat/map_file.hpp"
 
 namespace odosplat::accuracy {

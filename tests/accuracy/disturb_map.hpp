@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "map_views.hpp"
+#include "apps/input/map_views.hpp"
 
 namespace odosplat::accuracy {
 

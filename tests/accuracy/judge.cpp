@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "judge.hpp"
+#include "tests/accuracy/judge.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "odosplat/eval/statistics.hpp"
-#include "play.hpp"
+#include "tests/accuracy/play.hpp"
 
 namespace odosplat::accuracy {
 

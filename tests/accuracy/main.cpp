@@ -4,8 +4,9 @@
 // the first pose is told to the odometry.
 #include <CLI/CLI.hpp>
 
-#include "scenarios.hpp"
-#include "support.hpp"
+#include "apps/command/run_program.hpp"
+#include "apps/command/support.hpp"
+#include "tests/accuracy/scenarios.hpp"
 
 using namespace odosplat;
 

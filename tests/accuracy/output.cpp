@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "output.hpp"
+#include "tests/accuracy/output.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "judge.hpp"
+#include "tests/accuracy/judge.hpp"
 
 namespace odosplat::accuracy {
 

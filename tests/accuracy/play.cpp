@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "play.hpp"
+#include "tests/accuracy/play.hpp"
 
 #include <unistd.h>
 
 #include <fstream>
 
+#include "apps/command/interrupt.hpp"
+#include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/progress.hpp"
-#include "support.hpp"
 
 namespace odosplat::accuracy {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "odosplat/core/trajectory.hpp"
-#include "world.hpp"
+#include "tests/accuracy/world.hpp"
 
 namespace odosplat::accuracy {
 

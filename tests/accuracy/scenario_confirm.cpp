@@ -5,16 +5,17 @@
 #include <map>
 #include <memory>
 
-#include "disturb_image.hpp"
+#include "apps/command/interrupt.hpp"
+#include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/statistics.hpp"
-#include "odosplat/odometry/map_confirmation.hpp"
-#include "odosplat/odometry/motion_model.hpp"
-#include "odosplat/odometry/place_index.hpp"
-#include "odosplat/odometry/tracking_reference.hpp"
-#include "output.hpp"
-#include "scenarios.hpp"
-#include "support.hpp"
+#include "odosplat/odometry/confirm/map_confirmation.hpp"
+#include "odosplat/odometry/frame/motion_model.hpp"
+#include "odosplat/odometry/frame/tracking_reference.hpp"
+#include "odosplat/odometry/relocalise/place_index.hpp"
+#include "tests/accuracy/disturb_image.hpp"
+#include "tests/accuracy/output.hpp"
+#include "tests/accuracy/scenarios.hpp"
 
 namespace odosplat::accuracy {
 namespace {
@@ -67,7 +68,7 @@ class Place {
     for (const double angle : {0.04, 0.12}) {
       for (const SE3& turned : rotated_guesses(SE3(), angle)) guesses.push_back(turned);
     }
-    const Alignment found = tracker_.align_best(reference_, pyramid, guesses, {});
+    const Alignment found = aligner_.align_best(reference_, pyramid, guesses, {});
     if (!found.finished) return;
     compare(kind, Truth::wrong, image, found.T_target_host.inverse());
   }
@@ -78,7 +79,7 @@ class Place {
   ViewPatches patches_;
   FramePyramid rendered_;
   TrackingReference reference_;
-  Tracker tracker_{TrackerOptions{}};
+  ImageAligner aligner_{ImageAlignerOptions{}};
   Pairs& pairs_;
 };
 

@@ -8,12 +8,12 @@
 #include <numeric>
 #include <optional>
 
-#include "disturb_image.hpp"
+#include "apps/command/support.hpp"
 #include "odosplat/core/random.hpp"
-#include "odosplat/odometry/place_index.hpp"
-#include "output.hpp"
-#include "scenarios.hpp"
-#include "support.hpp"
+#include "odosplat/odometry/relocalise/place_index.hpp"
+#include "tests/accuracy/disturb_image.hpp"
+#include "tests/accuracy/output.hpp"
+#include "tests/accuracy/scenarios.hpp"
 
 namespace odosplat::accuracy {
 namespace {

@@ -8,13 +8,13 @@
 
 #include <unistd.h>
 
-#include "disturb_image.hpp"
-#include "disturb_map.hpp"
+#include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
-#include "output.hpp"
-#include "scenarios.hpp"
-#include "support.hpp"
+#include "tests/accuracy/disturb_image.hpp"
+#include "tests/accuracy/disturb_map.hpp"
+#include "tests/accuracy/output.hpp"
+#include "tests/accuracy/scenarios.hpp"
 
 namespace odosplat::accuracy {
 namespace {

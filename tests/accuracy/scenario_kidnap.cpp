@@ -5,12 +5,12 @@
 #include <memory>
 #include <optional>
 
-#include "disturb_image.hpp"
+#include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
-#include "odosplat/odometry/place_index.hpp"
-#include "output.hpp"
-#include "scenarios.hpp"
-#include "support.hpp"
+#include "odosplat/odometry/relocalise/place_index.hpp"
+#include "tests/accuracy/disturb_image.hpp"
+#include "tests/accuracy/output.hpp"
+#include "tests/accuracy/scenarios.hpp"
 
 namespace odosplat::accuracy {
 namespace {

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <memory>
 
+#include "apps/command/interrupt.hpp"
+#include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
-#include "output.hpp"
-#include "scenarios.hpp"
-#include "support.hpp"
+#include "tests/accuracy/output.hpp"
+#include "tests/accuracy/scenarios.hpp"
 
 namespace odosplat::accuracy {
 namespace {

@@ -4,9 +4,9 @@
 #include <limits>
 #include <memory>
 
-#include "output.hpp"
-#include "scenarios.hpp"
-#include "support.hpp"
+#include "apps/command/support.hpp"
+#include "tests/accuracy/output.hpp"
+#include "tests/accuracy/scenarios.hpp"
 
 namespace odosplat::accuracy {
 namespace {

@@ -2,7 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include "commands.hpp"
+#include "apps/command/commands.hpp"
 
 namespace CLI {
 class App;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "world.hpp"
+#include "tests/accuracy/world.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "apps/input/places.hpp"
 #include "odosplat/core/error.hpp"
-#include "places.hpp"
 
 namespace odosplat::accuracy {
 

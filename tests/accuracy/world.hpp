@@ -6,11 +6,11 @@
 #include <memory>
 #include <string>
 
-#include "map_views.hpp"
-#include "odosplat/io/sequence.hpp"
+#include "apps/cli/track/track.hpp"
+#include "apps/input/map_views.hpp"
+#include "odosplat/io/sequence/sequence.hpp"
 #include "odosplat/odometry/odometry.hpp"
-#include "odosplat/odometry/relocalizer.hpp"
-#include "track.hpp"
+#include "odosplat/odometry/relocalise/relocalizer.hpp"
 
 namespace CLI {
 class App;

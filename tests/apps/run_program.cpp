@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "run_program.hpp"
+#include "tests/apps/run_program.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "locations.hpp"
+#include "tests/locations.hpp"
 
 namespace odosplat::apps_test {
 

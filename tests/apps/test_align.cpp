@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/colmap_writer.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/core/similarity.hpp"
-#include "odosplat/io/cloud_file.hpp"
-#include "odosplat/io/sequence.hpp"
-#include "odosplat/io/similarity_file.hpp"
-#include "run_program.hpp"
-#include "tiny_world.hpp"
+#include "odosplat/io/cloud/cloud_file.hpp"
+#include "odosplat/io/sequence/sequence.hpp"
+#include "odosplat/io/trajectory/similarity_file.hpp"
+#include "tests/apps/run_program.hpp"
+#include "tests/apps/tiny_world.hpp"
+#include "tests/io/sequence/colmap_writer.hpp"
 
 namespace odosplat::apps_test {
 namespace {

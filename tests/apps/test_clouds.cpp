@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "odosplat/io/cloud_file.hpp"
-#include "run_program.hpp"
-#include "tiny_world.hpp"
+#include "odosplat/io/cloud/cloud_file.hpp"
+#include "tests/apps/run_program.hpp"
+#include "tests/apps/tiny_world.hpp"
 
 namespace odosplat::apps_test {
 namespace {

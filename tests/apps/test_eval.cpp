@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "odosplat/core/trajectory.hpp"
-#include "odosplat/io/image_file.hpp"
-#include "odosplat/io/trajectory_file.hpp"
-#include "run_program.hpp"
+#include "odosplat/io/image/image_file.hpp"
+#include "odosplat/io/trajectory/trajectory_file.hpp"
+#include "tests/apps/run_program.hpp"
 
 namespace odosplat::apps_test {
 namespace {

@@ -9,11 +9,11 @@
 #include <opencv2/videoio.hpp>
 #include <sstream>
 
-#include "locations.hpp"
-#include "odosplat/io/image_file.hpp"
-#include "odosplat/io/trajectory_file.hpp"
-#include "run_program.hpp"
-#include "tiny_world.hpp"
+#include "odosplat/io/image/image_file.hpp"
+#include "odosplat/io/trajectory/trajectory_file.hpp"
+#include "tests/apps/run_program.hpp"
+#include "tests/apps/tiny_world.hpp"
+#include "tests/locations.hpp"
 
 namespace odosplat::apps_test {
 namespace {

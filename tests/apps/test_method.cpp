@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "method.hpp"
+#include "apps/input/method.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 // Playing by stamps: pauses, stamps in other units, a stop while waiting.
-#include "playback.hpp"
+#include "apps/cli/track/playback.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <vector>
 
+#include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
-#include "run_program.hpp"
-#include "support.hpp"
-#include "tiny_world.hpp"
+#include "tests/apps/run_program.hpp"
+#include "tests/apps/tiny_world.hpp"
 
 namespace odosplat::apps {
 namespace {

@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmark/benchmark_figures.hpp"
+#include "apps/benchmark/report/benchmark_figures.hpp"
 #include "odosplat/core/error.hpp"
-#include "odosplat/io/video_reader.hpp"
-#include "run_program.hpp"
-#include "tiny_world.hpp"
+#include "odosplat/io/video/video_reader.hpp"
+#include "tests/apps/run_program.hpp"
+#include "tests/apps/tiny_world.hpp"
 
 namespace odosplat::apps {
 namespace {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "tiny_world.hpp"
+#include "tests/apps/tiny_world.hpp"
 
 #include <cstdio>
 
 #include "odosplat/io/atomic_file.hpp"
-#include "odosplat/io/camera_file.hpp"
-#include "odosplat/io/image_file.hpp"
-#include "odosplat/io/trajectory_file.hpp"
-#include "odosplat/synth/path.hpp"
-#include "odosplat/synth/ray_caster.hpp"
-#include "odosplat/synth/rooms.hpp"
+#include "odosplat/io/camera/camera_file.hpp"
+#include "odosplat/io/image/image_file.hpp"
+#include "odosplat/io/trajectory/trajectory_file.hpp"
+#include "odosplat/synth/motion/path.hpp"
+#include "odosplat/synth/render/ray_caster.hpp"
+#include "odosplat/synth/scene/rooms.hpp"
 
 namespace odosplat::apps_test {
 

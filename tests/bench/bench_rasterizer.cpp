@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "bench_report.hpp"
-#include "bench_scene.hpp"
 #include "odosplat/core/random.hpp"
-#include "odosplat/splat/rasterizer.hpp"
-#include "odosplat/splat/trainer.hpp"
-#include "yardstick.hpp"
+#include "odosplat/splat/raster/rasterizer.hpp"
+#include "odosplat/splat/train/trainer.hpp"
+#include "tests/bench/bench_report.hpp"
+#include "tests/bench/bench_scene.hpp"
+#include "tests/bench/yardstick.hpp"
 
 namespace odosplat {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "bench_report.hpp"
+#include "tests/bench/bench_report.hpp"
 
 #include <benchmark/benchmark.h>
 

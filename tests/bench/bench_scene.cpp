@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "bench_scene.hpp"
+#include "tests/bench/bench_scene.hpp"
 
 #include <cmath>
 #include <cstdlib>

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "odosplat/core/camera.hpp"
+#include "odosplat/camera/camera.hpp"
 #include "odosplat/core/se3.hpp"
 #include "odosplat/splat/gaussians.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "yardstick.hpp"
+#include "tests/bench/yardstick.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "yardstick_parts.hpp"
+#include "tests/bench/yardstick_parts.hpp"
 
 namespace odosplat {
 #if !defined(__x86_64__)

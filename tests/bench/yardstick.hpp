@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "odosplat/core/camera.hpp"
+#include "odosplat/camera/camera.hpp"
 #include "odosplat/core/se3.hpp"
 #include "odosplat/splat/gaussians.hpp"
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "odosplat/kernels/constants.h"
+#include "kernels/constants.h"
 #include "odosplat/splat/gaussians.hpp"
 
 namespace odosplat::yard {

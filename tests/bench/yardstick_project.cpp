@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "yardstick_parts.hpp"
-#include "yardstick_simd.hpp"
+#include "tests/bench/yardstick_parts.hpp"
+#include "tests/bench/yardstick_simd.hpp"
 
 namespace odosplat::yard {
 namespace {

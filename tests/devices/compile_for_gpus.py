@@ -145,7 +145,7 @@ def main():
         os.makedirs(folder)
     subprocess.run([options.exercise, os.path.join(options.work, "exercise.txt")], check=True,
                    env=dict(os.environ, ODOSPLAT_CACHE_DIR=cache))
-    found = programs(os.path.join(cache, "kernels"))  # as lib/compute/program_cache.hpp has it
+    found = programs(os.path.join(cache, "kernels"))  # as lib/odosplat/compute/program_cache.hpp has it
     jobs = [(number, program, target, assembly) for number, program in enumerate(found) for target in TARGETS]
     failures = 0
     kernels = set()

@@ -16,17 +16,17 @@
 #include <string>
 #include <vector>
 
+#include "kernels/constants.h"
 #include "odosplat/core/random.hpp"
-#include "odosplat/kernels/constants.h"
-#include "odosplat/splat/adam.hpp"
-#include "odosplat/splat/depth_loss.hpp"
-#include "odosplat/splat/exposures.hpp"
-#include "odosplat/splat/losses.hpp"
-#include "odosplat/splat/raster_pairs.hpp"
-#include "odosplat/splat/rasterizer.hpp"
-#include "odosplat/splat/surface_terms.hpp"
-#include "odosplat/splat/viewpoint.hpp"
-#include "splat/raster_scenes.hpp"
+#include "odosplat/splat/raster/raster_pairs.hpp"
+#include "odosplat/splat/raster/rasterizer.hpp"
+#include "odosplat/splat/raster/viewpoint.hpp"
+#include "odosplat/splat/train/adam.hpp"
+#include "odosplat/splat/train/depth_loss.hpp"
+#include "odosplat/splat/train/exposures.hpp"
+#include "odosplat/splat/train/losses.hpp"
+#include "odosplat/splat/train/surface_terms.hpp"
+#include "tests/splat/raster_scenes.hpp"
 
 namespace odosplat {
 namespace {

@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "fuzz/entries.hpp"
+#include "tests/fuzz/entries.hpp"
 
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
 
+#include "odosplat/camera/undistort.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
-#include "odosplat/io/camera_file.hpp"
-#include "odosplat/io/cloud_file.hpp"
-#include "odosplat/io/colmap_model.hpp"
-#include "odosplat/io/image_container.hpp"
-#include "odosplat/io/layouts.hpp"
-#include "odosplat/io/list_file.hpp"
-#include "odosplat/io/natural_order.hpp"
-#include "odosplat/io/photometric.hpp"
-#include "odosplat/io/ply.hpp"
-#include "odosplat/io/similarity_file.hpp"
-#include "odosplat/io/trajectory_file.hpp"
-#include "odosplat/io/transforms_file.hpp"
-#include "odosplat/io/undistort.hpp"
+#include "odosplat/io/camera/camera_file.hpp"
+#include "odosplat/io/camera/photometric.hpp"
+#include "odosplat/io/cloud/cloud_file.hpp"
+#include "odosplat/io/cloud/ply.hpp"
+#include "odosplat/io/image/image_container.hpp"
+#include "odosplat/io/sequence/colmap_model.hpp"
+#include "odosplat/io/sequence/transforms_file.hpp"
+#include "odosplat/io/text/list_file.hpp"
+#include "odosplat/io/text/natural_order.hpp"
+#include "odosplat/io/trajectory/similarity_file.hpp"
+#include "odosplat/io/trajectory/trajectory_file.hpp"
 
 namespace odosplat::fuzz {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fuzz/entries.hpp"
+#include "tests/fuzz/entries.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   odosplat::fuzz::colmap_text({reinterpret_cast<const char*>(data), size});

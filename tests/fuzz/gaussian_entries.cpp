@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "fuzz/entries.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/splat/map_file.hpp"
 #include "odosplat/splat/splat_file.hpp"
+#include "tests/fuzz/entries.hpp"
 
 namespace odosplat::fuzz {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Who may depend on whom: the link lines of CMake and every include, held against the one table below. CONTRIBUTING.md
-// shows the same table to people.
+// What holds for the whole tree: who may depend on whom (CONTRIBUTING.md's table, against the link lines of CMake and
+// every include), where includes point, names of types, sizes of folders, licences, who writes to the terminal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <filesystem>
@@ -13,10 +14,11 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
-#include "locations.hpp"
+#include "tests/locations.hpp"
 
 namespace {
 
@@ -31,39 +33,54 @@ struct Room {
   Names libraries;  // first part of the include paths of foreign libraries it may use
 };
 
-const std::map<std::string, Room> house{
-    {"kernels", {"kernels", {}, {}}},
-    {"core", {"lib/core", {}, {"Eigen", "opencv2/core", "opencv2/imgproc", "spdlog"}}},
-    {"compute", {"lib/compute", {"kernels"}, {"CL", "spdlog"}}},
-    {"io",
-     {"lib/io",
-      {"core"},
-      {"Eigen", "opencv2/core", "opencv2/imgproc", "opencv2/imgcodecs", "opencv2/videoio", "libavcodec", "libavformat",
-       "libavutil", "libswscale", "yaml-cpp", "nlohmann", "spdlog"}}},
-    {"map", {"lib/map", {"core"}, {"Eigen", "opencv2/core", "opencv2/imgproc", "nanoflann"}}},
-    {"splat", {"lib/splat", {"core", "compute", "map", "kernels", "io"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
-    {"odometry",
-     {"lib/odometry",
-      {"core", "map"},
-      {"Eigen", "opencv2/core", "opencv2/imgproc", "opencv2/features2d", "opencv2/calib3d"}}},
-    {"eval", {"lib/eval", {"core"}, {"Eigen", "opencv2/core", "opencv2/imgproc"}}},
-    {"synth", {"lib/synth", {"core", "map"}, {"Eigen", "opencv2/core", "opencv2/imgproc", "yaml-cpp"}}},
-    {"viewer", {"viewer", {"core", "map", "eval"}, {"Eigen", "opencv2/core", "opencv2/imgproc", "vtk", "EGL", "GL"}}},
-};
-
 std::string text_of(const fs::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-std::vector<fs::path> sources_of(const Room& room) {
+std::vector<std::string> columns_of(const std::string& row) {
+  std::vector<std::string> columns;
+  std::istringstream in(row);
+  for (std::string cell; std::getline(in, cell, '|');) columns.push_back(cell);
+  return columns;
+}
+
+Names words_of(const std::string& cell) {
+  static const std::regex word(R"re([\w/-]*\w[\w/-]*)re");
+  Names words;
+  for (std::sregex_iterator it(cell.begin(), cell.end(), word), end; it != end; ++it) words.insert(it->str());
+  return words;
+}
+
+// The table of CONTRIBUTING.md by the rooms' names, which are the last parts of their folders.
+const std::map<std::string, Room>& house() {
+  static const std::map<std::string, Room> rooms = [] {
+    std::map<std::string, Room> found;
+    std::istringstream in(text_of(root / "CONTRIBUTING.md"));
+    static const std::regex first(R"re(\| `([\w/]+)` \|.*)re");
+    for (std::string line; std::getline(in, line);) {
+      std::smatch match;
+      const std::vector<std::string> columns = columns_of(line);
+      if (columns.size() < 5 || !std::regex_match(line, match, first)) continue;
+      const std::string folder = match[1];
+      found[folder.substr(folder.rfind('/') + 1)] = {folder, words_of(columns[3]), words_of(columns[4])};
+    }
+    return found;
+  }();
+  return rooms;
+}
+
+bool is_source(const fs::path& file) { return file.extension() == ".cpp" || file.extension() == ".hpp"; }
+
+std::vector<fs::path> sources_in(const std::string& folder) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(root / room.folder)) {
-    const std::string extension = entry.path().extension();
-    if (extension == ".cpp" || extension == ".hpp") files.push_back(entry.path());
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    if (is_source(entry.path())) files.push_back(entry.path());
   }
   return files;
 }
+
+const char* const code_folders[] = {"kernels", "lib", "viewer", "apps"};
 
 std::vector<std::string> includes_of(const std::string& text) {
   static const std::regex line(R"re(#\s*include\s*[<"]([^>"]+)[>"])re");
@@ -83,37 +100,122 @@ std::string library_of(const std::string& include) {
   return "";
 }
 
+// Of an include by quotes: relative to lib or to the repository, whichever has it; empty: neither.
+fs::path file_of(const std::string& include) {
+  for (const fs::path& base : {root / "lib", root}) {
+    if (fs::is_regular_file(base / include)) return base / include;
+  }
+  return {};
+}
+
+std::vector<std::string> quoted_includes_of(const std::string& text) {
+  static const std::regex line(R"re((?:^|\n)\s*#\s*include\s*"([^"]+)")re");
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it) found.push_back((*it)[1]);
+  return found;
+}
+
+// Room of a path from the repository, or of an include; "" for none.
+std::string room_of(const std::string& path) {
+  static const std::regex own(R"re((?:lib/)?odosplat/(\w+)/.*|(viewer|kernels|apps)/.*)re");
+  std::smatch match;
+  if (!std::regex_match(path, match, own)) return "";
+  return match[1].matched ? match[1] : match[2];
+}
+
+TEST(House, TheTableNamesEveryFolder) {
+  ASSERT_GE(house().size(), 13U);
+  for (const auto& [name, room] : house()) {
+    EXPECT_TRUE(fs::is_directory(root / room.folder)) << room.folder;
+    for (const std::string& other : room.rooms) EXPECT_EQ(house().count(other), 1U) << name << " may use " << other;
+  }
+  for (const auto& entry : fs::directory_iterator(root / "lib/odosplat")) {
+    EXPECT_TRUE(house().count(entry.path().filename()) == 1) << entry.path();
+  }
+}
+
 TEST(House, IncludesKeepToTheTable) {
-  for (const auto& [name, room] : house) {
-    for (const fs::path& file : sources_of(room)) {
+  int own = 0;
+  for (const auto& [name, room] : house()) {
+    for (const fs::path& file : sources_in(room.folder)) {
       for (const std::string& include : includes_of(text_of(file))) {
-        static const std::regex own(R"re(odosplat/(\w+)/.*)re");
-        std::smatch match;
-        if (std::regex_match(include, match, own)) {
-          const std::string target = match[1];
+        if (const std::string target = room_of(include); !target.empty()) {
           EXPECT_TRUE(target == name || room.rooms.count(target) == 1) << file << " includes " << include;
+          ++own;
         } else if (const std::string library = library_of(include); !library.empty()) {
           EXPECT_TRUE(room.libraries.count(library) == 1) << file << " includes " << include;
         }
       }
     }
   }
+  EXPECT_GT(own, 1000);
+}
+
+// In an editor, before anything is configured: the path of a header is the path of its file.
+TEST(House, IncludesResolveInTheRepository) {
+  for (const char* folder : {"kernels", "lib", "viewer", "apps", "tests"}) {
+    for (const fs::path& file : sources_in(folder)) {
+      for (const std::string& include : quoted_includes_of(text_of(file))) {
+        EXPECT_FALSE(file_of(include).empty()) << file << " includes " << include;
+      }
+    }
+  }
+  const std::string flags = text_of(root / "compile_flags.txt");
+  EXPECT_NE(flags.find("-Ilib\n-I.\n"), std::string::npos);
+}
+
+// A header with its source file is one module: two modules that need each other are one, or want a third.
+TEST(House, IncludesMakeNoCircle) {
+  std::map<std::string, Names> needs;  // by path without extension
+  for (const char* folder : code_folders) {
+    for (const fs::path& file : sources_in(folder)) {
+      // Private to its folder: it declares what several source files define.
+      if (file.filename() == "opencl.hpp") continue;
+      const std::string module = fs::path(file).replace_extension();
+      for (const std::string& include : quoted_includes_of(text_of(file))) {
+        const std::string other = file_of(include).replace_extension();
+        if (other != module) needs[module].insert(other);
+      }
+    }
+  }
+  // What is left when modules that need nothing that is left are taken away, again and again, is in a circle or needs
+  // one.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (auto it = needs.begin(); it != needs.end();) {
+      const bool waits = std::any_of(it->second.begin(), it->second.end(),
+                                     [&](const std::string& other) { return needs.count(other) == 1; });
+      it = waits ? std::next(it) : needs.erase(it);
+      changed = changed || !waits;
+    }
+  }
+  for (const auto& [module, others] : needs) ADD_FAILURE() << module << " is in a circle of includes, or needs one";
 }
 
 TEST(House, LinksKeepToTheTable) {
   const std::string cmake = text_of(root / "lib/CMakeLists.txt") + text_of(root / "viewer/CMakeLists.txt");
-  static const std::regex call(R"re(odosplat_library\((\w+) ([^)]*)\))re");
+  static const std::regex call(R"re(odosplat_(?:own_)?library\((\w+) ([^)]*)\))re");
   static const std::regex dependency(R"re(odosplat_(\w+))re");
-  int libraries = 0;
+  std::size_t libraries = 0;
   for (std::sregex_iterator it(cmake.begin(), cmake.end(), call), end; it != end; ++it, ++libraries) {
     const std::string name = (*it)[1];
     const std::string arguments = (*it)[2];
-    ASSERT_EQ(house.count(name), 1U) << name << " is not in the table";
+    ASSERT_EQ(house().count(name), 1U) << name << " is not in the table";
     for (std::sregex_iterator d(arguments.begin(), arguments.end(), dependency); d != end; ++d) {
-      EXPECT_EQ(house.at(name).rooms.count((*d)[1]), 1U) << name << " links " << (*d)[1];
+      EXPECT_EQ(house().at(name).rooms.count((*d)[1]), 1U) << name << " links " << (*d)[1];
     }
   }
-  EXPECT_EQ(libraries, static_cast<int>(house.size()) - 1) << "every room but kernels is declared there";
+  EXPECT_EQ(libraries, house().size() - 2) << "every room but kernels and apps is declared there";
+}
+
+TEST(House, FoldersHoldAtMost15Sources) {
+  for (const char* folder : {"lib", "viewer", "apps", "tests"}) {
+    std::map<std::string, int> sources;
+    for (const fs::path& file : sources_in(folder)) {
+      if (file.extension() == ".cpp") ++sources[file.parent_path()];
+    }
+    for (const auto& [name, count] : sources) EXPECT_LE(count, 15) << name;
+  }
 }
 
 // The text without comments, strings and characters, which may hold braces and words.
@@ -179,27 +281,19 @@ TEST(House, FindsTypesOnlyWhereTheyAreDefinedForAll) {
 // Two types of one name in one program are undefined behavior, whichever libraries they are in.
 TEST(House, TypeNamesAreUnique) {
   std::map<std::string, std::string> places;
-  for (const char* folder : {"kernels", "lib", "viewer", "apps"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      const std::string extension = entry.path().extension();
-      if (extension != ".cpp" && extension != ".hpp") continue;
-      for (const std::string& name : types_defined_in(text_of(entry.path()))) {
-        const auto [place, added] = places.emplace(name, entry.path().string());
-        EXPECT_TRUE(added) << name << " is defined in " << place->second << " and in " << entry.path();
+  for (const char* folder : code_folders) {
+    for (const fs::path& file : sources_in(folder)) {
+      for (const std::string& name : types_defined_in(text_of(file))) {
+        const auto [place, added] = places.emplace(name, file.string());
+        EXPECT_TRUE(added) << name << " is defined in " << place->second << " and in " << file;
       }
     }
   }
   EXPECT_GT(places.size(), 300U);
 }
 
-TEST(House, EveryFolderOfLibIsInTheTable) {
-  for (const auto& entry : fs::directory_iterator(root / "lib")) {
-    EXPECT_TRUE(!entry.is_directory() || house.count(entry.path().filename()) == 1) << entry.path();
-  }
-}
-
-TEST(House, OnlyTheTrackerSeesTheOdometryClass) {
-  for (const fs::path& file : sources_of(house.at("odometry"))) {
+TEST(House, ModulesDoNotKnowTheOdometry) {
+  for (const fs::path& file : sources_in("lib/odosplat/odometry")) {
     if (file.stem() == "odometry") continue;
     for (const std::string& include : includes_of(text_of(file))) {
       EXPECT_NE(include, "odosplat/odometry/odometry.hpp") << file << ": modules do not know the whole";
@@ -207,9 +301,33 @@ TEST(House, OnlyTheTrackerSeesTheOdometryClass) {
   }
 }
 
+// Paths in the documents, `in/code` or [as](links), are of files and folders that exist.
+TEST(House, DocumentsNameWhatExists) {
+  static const std::regex path(R"re([`(]((?:lib|kernels|apps|viewer|tests|data|docs)/[\w./-]*)[`)])re");
+  int named = 0;
+  std::vector<fs::path> documents{root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md",
+                                  root / "data/README.md"};
+  for (const auto& entry : fs::directory_iterator(root / "docs")) documents.push_back(entry.path());
+  for (const fs::path& document : documents) {
+    const std::string text = text_of(document);
+    for (std::sregex_iterator it(text.begin(), text.end(), path), end; it != end; ++it, ++named) {
+      const std::string name = (*it)[1];
+      EXPECT_TRUE(fs::exists(root / name)) << document << " names " << name;
+    }
+  }
+  EXPECT_GT(named, 30);
+}
+
+// The README is one screen of reading; the rest is in docs.
+TEST(House, TheReadmeIsShort) {
+  const std::string text = text_of(root / "README.md");
+  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 120);
+}
+
 // Text of files must not reach a terminal raw: these files escape it. A user's program in one file is no part of ours.
 TEST(House, StandardStreamsAreWrittenInFewPlaces) {
-  const Names places{"apps/output.cpp", "apps/support.cpp", "apps/example/track_images.cpp", "lib/core/progress.cpp"};
+  const Names places{"apps/command/output.cpp",    "apps/command/support.cpp",      "apps/command/run_program.cpp",
+                     "apps/command/interrupt.cpp", "apps/example/track_images.cpp", "lib/odosplat/core/progress.cpp"};
   for (const char* folder : {"apps", "lib", "viewer"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string name = fs::relative(entry.path(), root).string();

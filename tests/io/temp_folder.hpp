@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "locations.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "tests/locations.hpp"
 
 namespace odosplat::test {
 

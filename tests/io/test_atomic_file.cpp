@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "temp_folder.hpp"
+#include "tests/io/temp_folder.hpp"
 
 namespace odosplat {
 namespace {

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
-#include "fuzz/entries.hpp"
-#include "locations.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "tests/fuzz/entries.hpp"
+#include "tests/locations.hpp"
 
 namespace odosplat {
 namespace {

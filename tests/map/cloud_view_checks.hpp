@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "map/map_view_checks.hpp"
 #include "odosplat/core/point_cloud.hpp"
+#include "tests/map/map_view_checks.hpp"
 
 namespace odosplat {
 

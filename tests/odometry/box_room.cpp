@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "box_room.hpp"
+#include "tests/odometry/box_room.hpp"
 
 #include <cmath>
 

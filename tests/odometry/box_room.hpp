@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "odosplat/map/map_view.hpp"
-#include "odosplat/odometry/frame.hpp"
+#include "odosplat/odometry/frame/frame.hpp"
 
 namespace odosplat::test {
 

@@ -8,8 +8,8 @@
 #include <functional>
 #include <memory>
 
-#include "box_room.hpp"
 #include "odosplat/odometry/odometry.hpp"
+#include "tests/odometry/box_room.hpp"
 
 namespace odosplat::test {
 
@@ -29,7 +29,7 @@ class RoomPairTest : public testing::Test {
     return std::make_shared<FramePyramid>(build_frame_pyramid(camera_, image));
   }
 
-  Alignment aligned(const FramePyramid& target) const { return tracker_.align(reference_, target, SE3(), {}, 9, 0); }
+  Alignment aligned(const FramePyramid& target) const { return aligner_.align(reference_, target, SE3(), {}, 9, 0); }
 
   double error_m(const Alignment& a) const { return (T_target_host_.inverse() * a.T_target_host).translation().norm(); }
 
@@ -38,7 +38,7 @@ class RoomPairTest : public testing::Test {
   SE3 T_world_host_ = room_path(20);
   SE3 T_target_host_{so3_exp({0.01, -0.02, 0.015}), {0.03, 0.01, -0.02}};
   TrackingReference reference_;
-  Tracker tracker_{{}};
+  ImageAligner aligner_{{}};
 };
 
 /// Root mean square position error [m] of a run of 90 frames through the room, whose image number k is spoilt first.

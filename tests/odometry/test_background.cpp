@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
-#include "box_room.hpp"
 #include "odosplat/odometry/odometry.hpp"
+#include "tests/odometry/box_room.hpp"
 
 namespace odosplat {
 namespace {
@@ -220,8 +220,8 @@ TEST(KeyframeThread, ANewerRequestReplacesOneThatWaits) {
   const Camera camera = test::small_camera();
   SlowRoom map;
   map.pause = milliseconds(100);
-  const Tracker tracker{TrackerOptions()};
-  KeyframeBackend backend(camera, map, tracker, {});
+  const ImageAligner aligner{ImageAlignerOptions()};
+  KeyframeBackend backend(camera, map, aligner, {});
   KeyframeThread thread(backend);
   const auto request = [&](int k) {
     KeyframeRequest r;
@@ -259,8 +259,8 @@ TEST(KeyframeBackend, AViewRenderedAheadIsUsedFromNearbyOnly) {
   const SE3 away(Eigen::Quaterniond::Identity(), {0.2, 0.0, 0.0});
   for (const bool near : {true, false}) {
     test::BoxRoom map;
-    const Tracker tracker{TrackerOptions()};
-    KeyframeBackend backend(camera, map, tracker, {});
+    const ImageAligner aligner{ImageAlignerOptions()};
+    KeyframeBackend backend(camera, map, aligner, {});
     backend.prefetch(T_world_camera * (near ? beside : away));
     KeyframeRequest request;
     request.T_world_camera = T_world_camera;

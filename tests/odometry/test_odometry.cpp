@@ -8,11 +8,11 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
-#include "box_room.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/odometry/odometry.hpp"
-#include "odosplat/odometry/relocalizer.hpp"
+#include "odosplat/odometry/relocalise/relocalizer.hpp"
+#include "tests/odometry/box_room.hpp"
 
 namespace odosplat {
 namespace {
@@ -453,7 +453,7 @@ TEST_F(OdometryTest, BadInputIsRefused) {
   broken.fx = 0.0;
   EXPECT_THROW(Odometry(broken, map, {}, SE3()), InputError);
   OdometryOptions options;
-  options.tracker.huber = -1.0;
+  options.aligner.huber = -1.0;
   EXPECT_THROW(Odometry(camera_, map, options, SE3()), InputError);
   const SE3 nowhere(Eigen::Quaterniond::Identity(), {std::nan(""), 0.0, 0.0});
   EXPECT_THROW(Odometry(camera_, map, {}, nowhere), InputError);

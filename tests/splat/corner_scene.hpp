@@ -4,11 +4,11 @@
 
 #include <vector>
 
-#include "odosplat/core/camera.hpp"
+#include "odosplat/camera/camera.hpp"
 #include "odosplat/core/image.hpp"
 #include "odosplat/core/point_cloud.hpp"
 #include "odosplat/core/se3.hpp"
-#include "odosplat/splat/trainer.hpp"
+#include "odosplat/splat/train/trainer.hpp"
 
 namespace odosplat::test {
 

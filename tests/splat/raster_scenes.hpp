@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "odosplat/camera/camera.hpp"
 #include "odosplat/compute/context.hpp"
-#include "odosplat/core/camera.hpp"
 #include "odosplat/core/se3.hpp"
 #include "odosplat/splat/gaussians.hpp"
-#include "odosplat/splat/rasterizer.hpp"
-#include "splat/reference/raster_reference.hpp"
+#include "odosplat/splat/raster/rasterizer.hpp"
+#include "tests/splat/reference/raster_reference.hpp"
 
 namespace odosplat {
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
-#include "fuzz/entries.hpp"
-#include "locations.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "tests/fuzz/entries.hpp"
+#include "tests/locations.hpp"
 
 namespace odosplat {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "map/map_view_checks.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
-#include "odosplat/splat/initialize.hpp"
-#include "splat/corner_scene.hpp"
+#include "odosplat/splat/train/initialize.hpp"
+#include "tests/map/map_view_checks.hpp"
+#include "tests/splat/corner_scene.hpp"
 
 namespace odosplat {
 namespace {

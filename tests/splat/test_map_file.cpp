@@ -19,7 +19,7 @@
 #include "odosplat/core/random.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
 #include "odosplat/splat/map_file.hpp"
-#include "odosplat/splat/trainer_options.hpp"
+#include "odosplat/splat/train/trainer_options.hpp"
 
 namespace odosplat {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
-#include "odosplat/io/ply.hpp"
+#include "odosplat/io/cloud/ply.hpp"
 #include "odosplat/splat/map_file.hpp"
-#include "scratch.hpp"
+#include "tests/splat/scratch.hpp"
 
 namespace odosplat {
 namespace {

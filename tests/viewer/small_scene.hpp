@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "odosplat/core/trajectory.hpp"
-#include "odosplat/viewer/map_points.hpp"
+#include "viewer/map_points.hpp"
 
 namespace odosplat {
 

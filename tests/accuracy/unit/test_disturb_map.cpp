@@ -6,10 +6,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "disturb_map.hpp"
 #include "odosplat/core/random.hpp"
-#include "odosplat/io/cloud_file.hpp"
+#include "odosplat/io/cloud/cloud_file.hpp"
 #include "odosplat/splat/map_file.hpp"
+#include "tests/accuracy/disturb_map.hpp"
 
 namespace odosplat::accuracy {
 namespace {

@@ -5,8 +5,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "judge.hpp"
 #include "odosplat/core/random.hpp"
+#include "tests/accuracy/judge.hpp"
 
 namespace odosplat::accuracy {
 namespace {

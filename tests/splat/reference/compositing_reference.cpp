@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "odosplat/kernels/constants.h"
-#include "splat/reference/raster_reference.hpp"
+#include "kernels/constants.h"
+#include "tests/splat/reference/raster_reference.hpp"
 
 namespace odosplat::reference {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "splat/reference/image_loss.hpp"
+#include "tests/splat/reference/image_loss.hpp"
 
 #include <cmath>
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "odosplat/kernels/constants.h"
-#include "splat/reference/dual.hpp"
-#include "splat/reference/raster_reference.hpp"
+#include "kernels/constants.h"
+#include "tests/splat/reference/dual.hpp"
+#include "tests/splat/reference/raster_reference.hpp"
 
 namespace odosplat::reference {
 namespace {

@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "odosplat/core/camera.hpp"
+#include "odosplat/camera/camera.hpp"
 #include "odosplat/core/se3.hpp"
 #include "odosplat/splat/gaussians.hpp"
-#include "odosplat/splat/rasterizer.hpp"
+#include "odosplat/splat/raster/rasterizer.hpp"
 
 /// Double-precision twin of the rasteriser: the same definitions, written to be read, without tiles, sorting by parts,
 /// square roots of covariances or polynomials for exp. Every Gaussian is tried at every pixel.

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <algorithm>
+
+#include "apps/benchmark/report/report_formats.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '_':
+      case '%':
+      case '&':
+      case '#':
+      case '$':
+      case '{':
+      case '}':
+        result += '\\';
+        result += c;
+        break;
+      case '\\':
+        result += "\\textbackslash{}";
+        break;
+      case '~':
+        result += "\\textasciitilde{}";
+        break;
+      case '^':
+        result += "\\textasciicircum{}";
+        break;
+      case '<':
+        result += "\\textless{}";
+        break;
+      case '>':
+        result += "\\textgreater{}";
+        break;
+      case '|':
+        result += "\\textbar{}";
+        break;
+      case '`':
+        result += "\\textasciigrave{}";
+        break;
+      case '"':
+        result += "\\textquotedbl{}";
+        break;
+      case '\n':
+      case '\r':
+      case '\t':
+        result += ' ';
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+/// A comment ends with its line.
+std::string one_line(std::string text) {
+  for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;
+  return text;
+}
+
+std::string cell_text(const ReportCell& cell) {
+  std::string text = cell.failed ? "$\\times$" : escaped(cell.text);
+  if (cell.mark == RankMark::best) text = "\\textbf{" + text + "}";
+  if (cell.mark == RankMark::second) text = "\\uline{" + text + "}";
+  if (cell.note > 0) text += "$^{" + std::to_string(cell.note) + "}$";
+  if (!cell.spread.empty()) text = "\\shortstack{" + text + "\\\\{\\tiny " + escaped(cell.spread) + "}}";
+  return text;
+}
+
+/// A wide table gets small letters: no package that scales is asked for.
+std::string letters_for(std::size_t columns) {
+  if (columns <= 8) return "\\footnotesize";
+  if (columns <= 12) return "\\scriptsize\\setlength{\\tabcolsep}{3pt}";
+  if (columns <= 14) return "\\tiny\\setlength{\\tabcolsep}{2pt}";
+  return "\\tiny\\setlength{\\tabcolsep}{1.4pt}";
+}
+
+std::string group_heads(const ReportTable& table, std::size_t names) {
+  std::string heads;
+  std::string rules;
+  for (std::size_t k = 0; k < names; ++k) heads += k > 0 ? " & " : "";
+  for (std::size_t begin = 0; begin < table.columns.size();) {
+    std::size_t end = begin;
+    while (end < table.columns.size() && table.columns[end].group == table.columns[begin].group) ++end;
+    const std::string& group = table.columns[begin].group;
+    heads += " & \\multicolumn{" + std::to_string(end - begin) + "}{c}{" + escaped(group) + "}";
+    if (!group.empty()) {
+      rules += "\\cmidrule(lr){" + std::to_string(names + begin + 1) + "-" + std::to_string(names + end) + "}";
+    }
+    begin = end;
+  }
+  return heads + " \\\\\n" + rules + "\n";
+}
+
+std::string table_text(const ReportTable& table) {
+  const std::size_t names = table.method_head.empty() ? 1 : 2;
+  std::string columns(names, 'l');
+  for (const ReportColumn& column : table.columns) columns += column.words ? 'l' : 'r';
+  std::string text = "\\begin{table*}\n\\centering\n" + letters_for(columns.size()) + "\n";
+  text += "\\caption{" + escaped(table.labelled_title()) + "." + (table.caption.empty() ? "" : " ") +
+          escaped(table.caption) + "}\n\\label{tab:" + table.key + "}\n";
+  text += "\\begin{tabular}{" + columns + "}\n\\toprule\n";
+  if (table.has_groups()) text += group_heads(table, names);
+  text += escaped(table.row_head);
+  if (names == 2) text += " & " + escaped(table.method_head);
+  for (const ReportColumn& column : table.columns) text += " & " + escaped(column.head);
+  text += " \\\\\n\\midrule\n";
+  for (const ReportRow& row : table.rows) {
+    text += escaped(row.name);
+    if (names == 2) text += " & " + escaped(row.method);
+    for (const ReportCell& cell : row.cells) text += " & " + cell_text(cell);
+    text += " \\\\\n";
+  }
+  text += "\\bottomrule\n\\end{tabular}\n";
+  for (std::size_t n = 0; n < table.notes.size(); ++n) {
+    text += "\\par\\footnotesize $^{" + std::to_string(n + 1) + "}$ " + escaped(table.notes[n]) + "\n";
+  }
+  return text + "\\end{table*}\n";
+}
+
+/// The table with the columns of one group, whose name goes to the title.
+ReportTable part_of(const ReportTable& table, const std::string& group, std::size_t number) {
+  ReportTable part = table;
+  part.key += "_" + std::to_string(number);
+  part.title += ": " + group;
+  part.columns.clear();
+  for (ReportRow& row : part.rows) row.cells.clear();
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (table.columns[c].group != group) continue;
+    part.columns.push_back(table.columns[c]);
+    part.columns.back().group.clear();
+    for (std::size_t r = 0; r < part.rows.size(); ++r) part.rows[r].cells.push_back(table.rows[r].cells[c]);
+  }
+  return part;
+}
+
+bool too_wide(const ReportTable& table) {
+  constexpr std::size_t columns_with_spread = 8;
+  const bool spread = std::ranges::any_of(table.rows, [](const ReportRow& row) {
+    return std::ranges::any_of(row.cells, [](const ReportCell& cell) { return !cell.spread.empty(); });
+  });
+  return table.has_groups() && spread && table.columns.size() > columns_with_spread;
+}
+
+/// Spreads make columns too wide for all groups to stand side by side: then each is a table of its own.
+std::string table_or_parts(const ReportTable& table) {
+  if (!too_wide(table)) return table_text(table);
+  std::string text;
+  std::vector<std::string> groups;
+  for (const ReportColumn& column : table.columns) {
+    if (std::ranges::find(groups, column.group) != groups.end()) continue;
+    groups.push_back(column.group);
+    text += (text.empty() ? "" : "\n") + table_text(part_of(table, column.group, groups.size()));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string tex_of(const std::vector<ReportTable>& tables, const BenchmarkResults& results) {
+  std::string text = "% For \\input in a document with \\usepackage{booktabs} and \\usepackage[normalem]{ulem}.\n";
+  if (results.stand_in) text += "% " + one_line(stand_in_warning(results)) + "\n";
+  for (const ReportTable& table : tables) text += "\n" + table_or_parts(table);
+  return text;
+}
+
+}  // namespace odosplat::apps

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "apps/command/interrupt.hpp"
+
+#include <semaphore.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include "odosplat/core/error.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+std::atomic<bool> interrupt_flag{false};
+std::atomic<int> savers{0};
+sem_t interrupt_came;
+
+constexpr int exit_interrupted = 130;
+
+extern "C" void on_interrupt(int signal) {
+  if (!interrupt_flag.exchange(true)) {
+    sem_post(&interrupt_came);
+  } else if (signal != SIGHUP) {  // which comes several times when a terminal closes
+    std::_Exit(exit_interrupted);
+  }
+}
+
+/// Ends what has not ended by itself: reading a large file or drawing a figure knows nothing of signals.
+void end_when_interrupted() {
+  constexpr auto patience = std::chrono::milliseconds(500);
+  constexpr auto step = std::chrono::milliseconds(20);
+  while (sem_wait(&interrupt_came) != 0 && errno == EINTR) {
+  }
+  for (auto waited = step; waited < patience; waited += step) {
+    std::this_thread::sleep_for(step);
+    if (savers > 0) waited = step;
+  }
+  std::fprintf(stderr, "odosplat: %s\n", Interrupted().what());
+  std::_Exit(exit_interrupted);
+}
+
+}  // namespace
+
+void catch_interrupts() {
+  sem_init(&interrupt_came, 0, 0);
+  std::thread(end_when_interrupted).detach();
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  if (std::signal(SIGHUP, SIG_IGN) != SIG_IGN) std::signal(SIGHUP, on_interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is an error of writing, told like every other
+}
+
+bool interrupted() { return interrupt_flag; }
+
+SavesWhenInterrupted::SavesWhenInterrupted() { ++savers; }
+SavesWhenInterrupted::~SavesWhenInterrupted() { --savers; }
+
+}  // namespace odosplat::apps

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "apps/command/run_program.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string>
+
+#include "apps/command/command_line.hpp"
+#include "apps/command/interrupt.hpp"
+#include "apps/command/no_result.hpp"
+#include "apps/command/output.hpp"
+#include "odosplat/compute/device.hpp"
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/terminal_text.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+constexpr int exit_internal = 1;
+constexpr int exit_bad_input = 2;
+constexpr int exit_no_result = 3;
+constexpr int exit_interrupted = 130;
+
+int fail(int code, const std::string& what) {
+  std::fprintf(stderr, "odosplat: %s\n", what.c_str());
+  return code;
+}
+
+}  // namespace
+
+int run_program(CLI::App& app, int argc, char** argv) {
+  catch_interrupts();
+  if (app.get_name().empty()) app.name(std::filesystem::path(argv[0]).filename().string());
+  try {
+    try {
+      parse_command_line(app, {argv + std::min(argc, 1), argv + argc});
+    } catch (const CLI::Success& e) {  // --help, --version
+      app.exit(e);
+    }
+    finish_output();
+    // Whatever was written is whole; but whoever runs a list of commands wants that to stop, too.
+    if (interrupted()) throw Interrupted();
+    return 0;
+  } catch (const InputError& e) {
+    return fail(exit_bad_input, printable_line(e.what()));
+  } catch (const compute::NoSuchDevice& e) {
+    return fail(exit_bad_input, printable_line(e.what()));
+  } catch (const NoResult& e) {
+    return fail(exit_no_result, printable_line(e.what()));
+  } catch (const Interrupted& e) {
+    return fail(exit_interrupted, printable_line(e.what()));
+  } catch (const std::bad_alloc&) {
+    return fail(exit_internal, "there is too little memory");
+  } catch (const std::exception& e) {
+    return fail(exit_internal, printable_text(e.what()));  // a compiler's log has lines
+  }
+}
+
+}  // namespace odosplat::apps

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "apps/input/sequence_flags.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+
+#include "apps/command/number_flags.hpp"
+#include "odosplat/core/error.hpp"
+
+namespace odosplat::apps {
+
+CLI::Option* add_sequence_flags(CLI::App* command, SequenceFlags& flags) {
+  CLI::Option* sequence =
+      command->add_option("SEQ", flags.path, "sequence: a folder in one of the known layouts, or a video")->required();
+  add_layout_flags(command, flags);
+  return sequence;
+}
+
+void add_layout_flags(CLI::App* command, SequenceFlags& flags) {
+  command->add_option(
+      "--layout", flags.options.layout,
+      "tum, icl, redwood, sevenscenes, replica, colmap, nerfstudio, images or video (default: detected)");
+  command->add_option("--camera", flags.options.camera_file, "camera.yaml to use instead of the sequence's own");
+  add_image_limit_flag(command, flags.options);
+}
+
+void add_image_limit_flag(CLI::App* command, SequenceOptions& options) {
+  add_number(command, "--max-image-pixels", options.max_image_pixels, {.least = 1, .most = ImageLimit::most_pixels},
+             "refuse images of more pixels than this before they are decoded");
+}
+
+Sequence open_sequence(const SequenceFlags& flags) { return Sequence::open(flags.path, flags.options); }
+
+FrameRange parse_frames(const std::string& text) {
+  const InputError wrong("--frames", "must be A:B with A < B, is " + text);
+  const auto colon = text.find(':');
+  if (colon == std::string::npos) throw wrong;
+  const auto number = [&](const std::string& word, std::size_t missing) {
+    std::size_t value = missing;
+    const char* end = word.data() + word.size();
+    if (word.empty()) return value;
+    const auto [rest, error] = std::from_chars(word.data(), end, value);
+    if (error != std::errc() || rest != end) throw wrong;
+    return value;
+  };
+  FrameRange range;
+  range.begin = number(text.substr(0, colon), range.begin);
+  range.end = number(text.substr(colon + 1), range.end);
+  if (range.begin >= range.end) throw wrong;
+  return range;
+}
+
+std::vector<std::size_t> posed_frames(const Sequence& sequence, int every, const FrameRange& range) {
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 0; i < std::min(range.end, sequence.size()); i += static_cast<std::size_t>(every)) {
+    if (i >= range.begin && sequence.T_world_camera(i)) frames.push_back(i);
+  }
+  if (frames.empty()) throw InputError(sequence.name(), "no frame in question has a pose");
+  return frames;
+}
+
+}  // namespace odosplat::apps

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/camera/camera.hpp"
+
+#include <cstdio>
+#include <string>
+
+#include "odosplat/core/error.hpp"
+
+namespace odosplat {
+namespace {
+
+void require_size(const char* name, int size) {
+  if (size < 1 || size > 32768) throw InputError(name, "must be in 1..32768, is " + std::to_string(size));
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
+// A thousandth of the image: 179.9 degrees from border to border. 1e6 pixels: images of 32768 see 2 degrees.
+constexpr double least_focal_share = 1e-3;
+constexpr double most_focal = 1e6;
+
+void require_focal(const char* name, double f, int size) {
+  if (!(f > 0.0)) throw InputError(name, "must be positive, is " + number(f));
+  const double least = least_focal_share * size;
+  if (f >= least && f <= most_focal) return;
+  throw InputError(name, "must be in " + number(least) + ".." + number(most_focal) + " for an image of " +
+                             std::to_string(size) + " px, is " + number(f));
+}
+
+// As far from the image as one that is cut out of the largest has its centre.
+void require_center(const char* name, double c, int size) {
+  if (c >= -32768.0 && c <= size + 32768.0) return;
+  throw InputError(name, "must be within 32768 px of the image, is " + number(c));
+}
+
+}  // namespace
+
+void Camera::check() const {
+  require_size("width", width);
+  require_size("height", height);
+  require_focal("fx", fx, width);
+  require_focal("fy", fy, height);
+  require_center("cx", cx, width);
+  require_center("cy", cy, height);
+}
+
+Eigen::Matrix3d Camera::matrix() const {
+  Eigen::Matrix3d K;
+  K << fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0;
+  return K;
+}
+
+Camera Camera::level(int l) const {
+  Camera c = *this;
+  for (int i = 0; i < l; ++i) {
+    c.width /= 2;
+    c.height /= 2;
+    c.fx *= 0.5;
+    c.fy *= 0.5;
+    c.cx = (c.cx + 0.5) * 0.5 - 0.5;
+    c.cy = (c.cy + 0.5) * 0.5 - 0.5;
+  }
+  return c;
+}
+
+Camera Camera::resized(int new_width, int new_height) const {
+  const double sx = static_cast<double>(new_width) / width;
+  const double sy = static_cast<double>(new_height) / height;
+  return {new_width, new_height, fx * sx, fy * sy, (cx + 0.5) * sx - 0.5, (cy + 0.5) * sy - 0.5};
+}
+
+}  // namespace odosplat

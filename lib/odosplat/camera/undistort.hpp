@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "odosplat/camera/camera.hpp"
+#include "odosplat/core/image.hpp"
+
+namespace odosplat {
+
+/// Removes radial and tangential lens distortion (Brown 1966, in OpenCV's form): a point at (x, y) = (X/Z, Y/Z) is seen
+/// at
+///   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2)
+///   y' = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y
+/// Images keep the camera's size, focal lengths and centre. Pixels whose ray the image does not show, or where the
+/// polynomial has turned back (a second image of the same ray), are 0. Const calls are thread safe.
+class Undistorter {
+ public:
+  Undistorter() = default;
+  /// distortion: k1 k2 p1 p2 k3, or without k3; empty: images are returned as they are.
+  Undistorter(const Camera& camera, const std::vector<double>& distortion);
+
+  bool is_identity() const { return source_.empty(); }
+  /// Pixel of the distorted image that shows the ray of pixel (u, v) of the undistorted one.
+  Eigen::Vector2d distort(double u, double v) const;
+  /// Bilinear.
+  ColorImage color(const ColorImage& distorted) const;
+  /// Nearest pixel, since between two depths there may be nothing. z does not change.
+  DepthImage depth(const DepthImage& distorted) const;
+
+ private:
+  Camera camera_;
+  double k1_ = 0.0;
+  double k2_ = 0.0;
+  double p1_ = 0.0;
+  double p2_ = 0.0;
+  double k3_ = 0.0;
+  cv::Mat2f source_;  // pixel of the distorted image, (-1, -1) = not seen
+};
+
+}  // namespace odosplat

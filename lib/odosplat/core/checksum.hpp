@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace odosplat {
+
+/// 64-bit FNV-1a (Fowler, Noll, Vo) over all that was added: to tell data apart, not to guard against forgery.
+class Checksum {
+ public:
+  void add(std::string_view bytes) {
+    for (const char c : bytes) {
+      value_ ^= static_cast<unsigned char>(c);
+      value_ *= 1099511628211ULL;
+    }
+  }
+  void add(const void* data, std::size_t size) { add({static_cast<const char*>(data), size}); }
+  std::uint64_t value() const { return value_; }
+  /// 16 hexadecimal digits.
+  std::string text() const {
+    char digits[17];
+    std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(value_));
+    return digits;
+  }
+
+ private:
+  std::uint64_t value_ = 14695981039346656037ULL;
+};
+
+}  // namespace odosplat

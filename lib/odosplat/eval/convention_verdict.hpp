@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include "odosplat/camera/camera.hpp"
+#include "odosplat/eval/convention_report.hpp"
+
+namespace odosplat {
+
+/// Fills winner, findings and verdict of a report whose rows are measured and sorted and whose declared convention is
+/// among them.
+void judge_conventions(ConventionReport& report, const Camera& camera, double max_error);
+
+}  // namespace odosplat

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/io/camera/camera_file.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/camera/camera_check.hpp"
+#include "odosplat/io/text/file_names.hpp"
+
+namespace odosplat {
+namespace {
+
+constexpr std::size_t max_size = 1 << 20;
+
+// Text of the file for an error of one line: quoted keys and the parser's messages may hold line ends.
+std::string shown(std::string text) {
+  text.resize(std::min<std::size_t>(text.size(), 80));
+  for (char& c : text) c = static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+  return text;
+}
+
+class Reader {
+ public:
+  Reader(std::string name, const std::string& text) : name_(std::move(name)) {
+    if (text.size() > max_size) throw InputError(name_, "is too long for a camera file");
+    try {
+      // Load() would take the first of several documents, and say nothing of the others.
+      const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+      if (documents.size() > 1) {
+        fail("content", "holds " + std::to_string(documents.size()) + " YAML documents (`---`), must hold one");
+      }
+      if (!documents.empty()) root_ = documents.front();
+    } catch (const YAML::Exception& e) {
+      fail("line " + std::to_string(e.mark.line + 1), shown(e.msg));
+    }
+    if (!root_.IsMap()) fail("content", "is not a list of `key: value` lines");
+    refuse_duplicates();
+  }
+
+  bool has(const char* key) const { return static_cast<bool>(root_[key]); }
+
+  double number(const char* key) const {
+    if (!has(key)) fail(key, "is missing");
+    return number(key, root_[key]);
+  }
+
+  int integer(const char* key) const {
+    const double value = number(key);
+    if (value != std::floor(value) || std::abs(value) > 1e6) fail(key, "is not a whole number in range");
+    return static_cast<int>(value);
+  }
+
+  std::vector<double> numbers(const char* key) const {
+    const YAML::Node list = root_[key];
+    if (!list.IsSequence()) fail(key, "is not a list");
+    std::vector<double> values;
+    for (const YAML::Node& item : list) values.push_back(number(key, item));
+    return values;
+  }
+
+  std::string text(const char* key) const {
+    if (!root_[key].IsScalar()) fail(key, "is not a text");
+    return root_[key].Scalar();
+  }
+
+  void refuse_unknown(const std::set<std::string>& known) const {
+    for (const auto& entry : root_) {
+      if (!entry.first.IsScalar()) fail("content", "has a key that is not a word");
+      if (known.count(entry.first.Scalar()) == 0) fail(shown(entry.first.Scalar()), "is not a known key");
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& key, const std::string& fault) const {
+    throw InputError(name_, key, fault);
+  }
+
+ private:
+  double number(const char* key, const YAML::Node& node) const {
+    double value = 0.0;
+    if (!node.IsScalar() || !YAML::convert<double>::decode(node, value)) fail(key, "is not a number");
+    if (!std::isfinite(value)) fail(key, "is not finite");
+    return value;
+  }
+
+  // The parser keeps both entries and gives out one of them.
+  void refuse_duplicates() const {
+    std::map<std::string, int> lines;
+    for (const auto& entry : root_) {
+      if (!entry.first.IsScalar()) continue;
+      const int line = entry.first.Mark().line + 1;
+      const auto [first, added] = lines.emplace(entry.first.Scalar(), line);
+      if (added) continue;
+      fail(shown(first->first),
+           "is given twice, in lines " + std::to_string(first->second) + " and " + std::to_string(line));
+    }
+  }
+
+  std::string name_;
+  YAML::Node root_;
+};
+
+// The shortest text that reads back as the same bits.
+std::string shortest(double value) {
+  char buffer[32];
+  const std::to_chars_result result = std::to_chars(buffer, buffer + sizeof(buffer), value);
+  return {buffer, result.ptr};
+}
+
+// YAML's double quotes.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+}  // namespace
+
+CameraFile parse_camera_file(const std::string& name, const std::string& text) {
+  const Reader reader(name, text);
+  CameraFile file;
+  Camera& c = file.camera;
+  c.width = reader.integer("width");
+  c.height = reader.integer("height");
+  c.fx = reader.number("fx");
+  c.fy = reader.number("fy");
+  c.cx = reader.number("cx");
+  c.cy = reader.number("cy");
+  if (c.fy < 0.0) {
+    file.fy_sign = -1;
+    c.fy = -c.fy;
+  }
+  if (reader.has("depth_scale")) {
+    file.depth_scale = reader.number("depth_scale");
+    file.has_depth_scale = true;
+    if (file.depth_scale <= 0.0) reader.fail("depth_scale", "must be positive");
+  }
+  if (reader.has("distortion")) {
+    file.distortion = reader.numbers("distortion");
+    const std::size_t n = file.distortion.size();
+    if (n != 0 && n != 4 && n != 5) reader.fail("distortion", "must hold 4 or 5 numbers, holds " + std::to_string(n));
+  }
+  if (reader.has("fps")) {
+    file.fps = reader.number("fps");
+    if (file.fps <= 0.0) reader.fail("fps", "must be positive");
+  }
+  if (reader.has("gamma")) {
+    file.gamma = reader.number("gamma");
+    if (file.gamma <= 0.0) reader.fail("gamma", "must be positive");
+  }
+  if (reader.has("vignette")) file.vignette = reader.text("vignette");
+  reader.refuse_unknown(
+      {"width", "height", "fx", "fy", "cx", "cy", "depth_scale", "distortion", "fps", "gamma", "vignette"});
+  check_camera(name, file);
+  return file;
+}
+
+CameraFile read_camera_file(const std::string& path) {
+  CameraFile file = parse_camera_file(path, read_file(path, max_size));
+  if (!file.vignette.empty()) {
+    const std::string vignette = listed_file(std::filesystem::path(path).parent_path().string(), file.vignette);
+    try {
+      require_regular_file(vignette);
+    } catch (const InputError& e) {
+      throw InputError(path, "vignette", e.what());
+    }
+  }
+  return file;
+}
+
+void write_camera_file(const std::string& path, const CameraFile& file) {
+  std::string text;
+  auto line = [&text](const char* key, const std::string& value) { text += std::string(key) + ": " + value + "\n"; };
+  line("width", std::to_string(file.camera.width));
+  line("height", std::to_string(file.camera.height));
+  line("fx", shortest(file.camera.fx));
+  line("fy", shortest(file.fy_sign * file.camera.fy));
+  line("cx", shortest(file.camera.cx));
+  line("cy", shortest(file.camera.cy));
+  line("depth_scale", shortest(file.depth_scale));
+  if (!file.distortion.empty()) {
+    std::string list;
+    for (const double value : file.distortion) list += (list.empty() ? "[" : ", ") + shortest(value);
+    line("distortion", list + "]");
+  }
+  if (file.fps > 0.0) line("fps", shortest(file.fps));
+  if (file.gamma > 0.0) line("gamma", shortest(file.gamma));
+  if (!file.vignette.empty()) line("vignette", quoted(file.vignette));
+  write_file_atomically(path, text);
+}
+
+}  // namespace odosplat

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/io/image/picture_file.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string_view>
+#include <vector>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/io/atomic_file.hpp"
+
+namespace odosplat {
+namespace {
+
+std::string ending(const std::string& path) {
+  std::string text = std::filesystem::path(path).extension().string();
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
+std::string encoded(const std::string& format, const cv::Mat3b& rgb) {
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  std::vector<unsigned char> bytes;
+  cv::imencode(format, bgr, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+/// The compressed rows of a PNG: the contents of its IDAT chunks, which PDF reads as they are.
+std::string compressed_rows(std::string_view png) {
+  std::string rows;
+  for (std::size_t at = 8; at + 12 <= png.size();) {
+    std::uint32_t size = 0;
+    for (std::size_t i = 0; i < 4; ++i) size = size << 8U | static_cast<unsigned char>(png[at + i]);
+    if (png.substr(at + 4, 4) == "IDAT") rows += png.substr(at + 8, size);
+    at += 12 + static_cast<std::size_t>(size);
+  }
+  return rows;
+}
+
+/// Numbered objects of a PDF and the table that says where each begins.
+class Pdf {
+ public:
+  void add(const std::string& body) {
+    starts_.push_back(text_.size());
+    text_ += std::to_string(starts_.size()) + " 0 obj\n" + body + "\nendobj\n";
+  }
+  void add_stream(const std::string& entries, const std::string& bytes) {
+    add("<< " + entries + " /Length " + std::to_string(bytes.size()) + " >>\nstream\n" + bytes + "\nendstream");
+  }
+  /// The whole file; object 1 is the catalogue.
+  std::string finish() const {
+    const std::string count = std::to_string(starts_.size() + 1);
+    std::string file = text_ + "xref\n0 " + count + "\n0000000000 65535 f \n";
+    for (const std::size_t start : starts_) {
+      char line[40];
+      std::snprintf(line, sizeof(line), "%010zu 00000 n \n", start);
+      file += line;
+    }
+    return file + "trailer\n<< /Size " + count + " /Root 1 0 R >>\nstartxref\n" + std::to_string(text_.size()) +
+           "\n%%EOF\n";
+  }
+
+ private:
+  // Bytes beyond ASCII in the second line tell programs that copy files that this one is no text.
+  std::string text_ = "%PDF-1.4\n%\xe2\xe3\xcf\xd3\n";
+  std::vector<std::size_t> starts_;
+};
+
+std::string pdf_of(const cv::Mat3b& rgb) {
+  const std::string width = std::to_string(rgb.cols);
+  const std::string height = std::to_string(rgb.rows);
+  // A point is 1/72 inch.
+  char w[32];
+  char h[32];
+  std::snprintf(w, sizeof(w), "%.2f", 0.75 * rgb.cols);
+  std::snprintf(h, sizeof(h), "%.2f", 0.75 * rgb.rows);
+  const std::string size = std::string(w) + " " + h;
+  Pdf pdf;
+  pdf.add("<< /Type /Catalog /Pages 2 0 R >>");
+  pdf.add("<< /Type /Pages /Kids [3 0 R] /Count 1 >>");
+  pdf.add("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 " + size +
+          "] /Resources << /XObject << /Picture 4 0 R >> >> /Contents 5 0 R >>");
+  pdf.add_stream("/Type /XObject /Subtype /Image /Width " + width + " /Height " + height +
+                     " /ColorSpace /DeviceRGB /BitsPerComponent 8 /Filter /FlateDecode /DecodeParms << /Predictor 15 "
+                     "/Colors 3 /BitsPerComponent 8 /Columns " +
+                     width + " >>",
+                 compressed_rows(encoded(".png", rgb)));
+  pdf.add_stream("", "q " + std::string(w) + " 0 0 " + h + " 0 0 cm /Picture Do Q");
+  return pdf.finish();
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8U | (k < here ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= here ? digits[group >> (18 - 6 * k) & 0x3FU] : '=';
+  }
+  return text;
+}
+
+std::string svg_of(const cv::Mat3b& rgb) {
+  const std::string size = "width=\"" + std::to_string(rgb.cols) + "\" height=\"" + std::to_string(rgb.rows) + "\"";
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" " + size +
+         ">\n<image " + size + " xlink:href=\"data:image/png;base64," + base64(encoded(".png", rgb)) + "\"/>\n</svg>\n";
+}
+
+}  // namespace
+
+void check_picture_name(const std::string& path) {
+  const std::string name = ending(path);
+  for (const char* known : {".png", ".jpg", ".jpeg", ".pdf", ".svg"}) {
+    if (name == known) return;
+  }
+  throw InputError(path, "a picture's name must end in .png, .jpg, .jpeg, .pdf or .svg");
+}
+
+void write_picture(const std::string& path, const cv::Mat3b& rgb) {
+  check_picture_name(path);
+  if (rgb.empty()) throw InputError(path, "cannot be written: the picture is empty");
+  const std::string name = ending(path);
+  write_file_atomically(path, name == ".pdf" ? pdf_of(rgb) : name == ".svg" ? svg_of(rgb) : encoded(name, rgb));
+}
+
+}  // namespace odosplat

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+// Images without any list, and videos: a camera file says the rest.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
+#include "odosplat/io/sequence/layout_parts.hpp"
+#include "odosplat/io/sequence/layouts.hpp"
+#include "odosplat/io/sequence/sequence_index.hpp"
+#include "odosplat/io/text/file_names.hpp"
+#include "odosplat/io/text/natural_order.hpp"
+
+namespace odosplat {
+namespace {
+
+constexpr double rate_tolerance = 0.02;
+
+std::vector<std::string> image_names(const std::string& path) {
+  std::vector<std::string> names = list_folder(path);
+  std::erase_if(names, [](const std::string& name) { return !is_image_name(name); });
+  return names;
+}
+
+std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+// Images of phones are stored lying and shown upright; the camera file must be of the images as they are shown.
+void check_turned(const std::string& path, const VideoReader& video, const SequenceIndex& index) {
+  if (video.quarters() == 0) return;
+  const Camera& camera = index.camera.camera;
+  const cv::Size shown = video.frame_size();
+  const std::string degrees = std::to_string(90 * video.quarters()) + " degrees clockwise";
+  const bool turned_camera = camera.width == shown.height && camera.height == shown.width;
+  if (turned_camera && camera.width != camera.height) {
+    throw InputError(path, "is shown turned by " + degrees + ", as " + size_text(shown.width, shown.height) + "; " +
+                               index.camera_source + " is for " + size_text(camera.width, camera.height) +
+                               ": calibrate with the images as they are shown");
+  }
+  // Nothing else would tell.
+  if (video.quarters() == 2 || camera.width == camera.height) {
+    log_warning(path + ": its images are turned by " + degrees + ", as they are to be shown; " + index.camera_source +
+                " must be of the turned images");
+  }
+}
+
+// The stamps say how fast the images came; a rate in the camera file that differs is reported.
+void drop_declared_rate(const std::string& path, SequenceIndex& index) {
+  const double declared = std::exchange(index.camera.fps, 0.0);
+  if (declared <= 0.0 || index.frames.size() < 2) return;
+  const double seconds = index.frames.back().time - index.frames.front().time;
+  const double rate = static_cast<double>(index.frames.size() - 1) / seconds;
+  if (std::abs(rate - declared) <= rate_tolerance * rate) return;
+  char text[96];
+  std::snprintf(text, sizeof(text), " says %.3f frames per second, the video's stamps %.3f: the stamps count", declared,
+                rate);
+  log_warning(path + ": " + index.camera_source + text);
+}
+
+}  // namespace
+
+bool is_image_folder(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_directory(path, error) && !image_names(path).empty();
+}
+
+bool is_video(const std::string& path) { return file_exists(path) && !is_transforms(path); }
+
+SequenceIndex index_image_folder(const std::string& path, const SequenceOptions& options) {
+  SequenceIndex index;
+  choose_camera(options, {path}, std::nullopt, "", 1000.0, index);
+  NumberedFiles files;
+  for (const std::string& name : image_names(path)) {
+    files.color.emplace(static_cast<long long>(files.color.size()), join(path, name));
+  }
+  if (files.color.empty()) throw InputError(path, "holds no PNG or JPEG file");
+  fill_numbered(files, index);
+  return index;
+}
+
+SequenceIndex index_video(const std::string& path, const SequenceOptions& options) {
+  SequenceIndex index;
+  if (options.camera_file.empty()) throw InputError(path, "a video needs a camera file (--camera)");
+  choose_camera(options, {}, std::nullopt, "", 1000.0, index);
+  index.video = std::make_shared<const VideoReader>(path);
+  check_turned(path, *index.video, index);
+  const std::vector<double>& times = index.video->times();
+  if (times.empty() && index.camera.fps <= 0.0) {
+    throw InputError(path, "is a bare stream without times; give fps in the camera file");
+  }
+  NumberedFiles files;
+  for (std::size_t i = 0; i < index.video->size(); ++i) files.color.emplace(static_cast<long long>(i), "");
+  fill_numbered(files, index);
+  for (std::size_t i = 0; i < times.size(); ++i) index.frames[i].time = times[i];
+  if (!times.empty()) drop_declared_rate(path, index);
+  return index;
+}
+
+}  // namespace odosplat

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/io/sequence/layouts.hpp"
+
+namespace odosplat {
+
+const std::vector<Layout>& layouts() {
+  static const std::vector<Layout> all{
+      {"video", "a video file", is_video, index_video},
+      {"tum", "rgb.txt, or associations.txt with times", is_tum, index_tum},
+      {"icl", "associations.txt", is_icl, index_icl},
+      {"redwood", "*-color", is_redwood, index_redwood},
+      {"sevenscenes", "frame-*.color.png or seq-*", is_sevenscenes, index_sevenscenes},
+      {"replica", "results/frame*", is_replica, index_replica},
+      {"colmap", "cameras and images, .bin or .txt, here, in sparse or in sparse/0", is_colmap, index_colmap},
+      {"nerfstudio", "transforms.json", is_nerfstudio, index_nerfstudio},
+      {"images", "PNG or JPEG files", is_image_folder, index_image_folder},
+  };
+  return all;
+}
+
+}  // namespace odosplat

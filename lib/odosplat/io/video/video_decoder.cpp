@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/io/video/video_decoder.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/display.h>
+#include <libavutil/log.h>
+#include <libswscale/swscale.h>
+}
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string_view>
+#include <vector>
+
+#include "odosplat/core/error.hpp"
+
+namespace odosplat {
+namespace {
+
+template <auto free_it>
+struct Free {
+  template <typename T>
+  void operator()(T* pointer) const {
+    free_it(&pointer);
+  }
+};
+struct FreeScaler {
+  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
+};
+
+using Format = std::unique_ptr<AVFormatContext, Free<avformat_close_input>>;
+using Codec = std::unique_ptr<AVCodecContext, Free<avcodec_free_context>>;
+using Packet = std::unique_ptr<AVPacket, Free<av_packet_free>>;
+using Frame = std::unique_ptr<AVFrame, Free<av_frame_free>>;
+using Scaler = std::unique_ptr<SwsContext, FreeScaler>;
+
+// FFmpeg's names of the formats that are one file.
+constexpr const char* single_files =
+    "mov,matroska,avi,mpegts,mpeg,mpegvideo,m4v,ogg,flv,asf,mxf,nut,dv,ivf,h261,h263,h264,hevc,av1,obu,vc1,mjpeg,"
+    "mjpeg_2000,gif,apng";
+
+[[noreturn]] void no_video(const std::string& path) { throw InputError(path, "is not a video that can be read"); }
+
+// With `flags` of AVFormatContext.
+Format open_format(const std::string& path, int flags) {
+  AVFormatContext* format = avformat_alloc_context();
+  if (format == nullptr) no_video(path);
+  format->flags |= flags;
+  AVDictionary* options = nullptr;
+  // Playlists and lists name other files and addresses, which may be pipes; they are opened when the header is read.
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  av_dict_set(&options, "format_whitelist", single_files, 0);
+  const int opened = avformat_open_input(&format, ("file:" + path).c_str(), nullptr, &options);
+  av_dict_free(&options);
+  if (opened < 0) no_video(path);  // the context is freed then
+  return Format(format);
+}
+
+// Bare streams (.h264, .mjpeg) hold no stamps; unless told not to, FFmpeg makes some up from a rate.
+bool holds_stamps(const std::string& path) {
+  constexpr int enough_packets = 64;
+  const Format format = open_format(path, AVFMT_FLAG_NOFILLIN | AVFMT_FLAG_NOPARSE);
+  const Packet packet(av_packet_alloc());
+  for (int i = 0; i < enough_packets && av_read_frame(format.get(), packet.get()) >= 0; ++i) {
+    const bool stamped = packet->pts != AV_NOPTS_VALUE || packet->dts != AV_NOPTS_VALUE;
+    av_packet_unref(packet.get());
+    if (stamped) return true;
+  }
+  return false;
+}
+
+// Three by three, 16.16 and 2.30 fixed point; null: none.
+const std::int32_t* display_matrix(const AVStream& stream) {
+#if LIBAVFORMAT_VERSION_MAJOR >= 61
+  const AVPacketSideData* data = av_packet_side_data_get(
+      stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
+  return data == nullptr ? nullptr : reinterpret_cast<const std::int32_t*>(data->data);
+#else
+  return reinterpret_cast<const std::int32_t*>(av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
+#endif
+}
+
+int quarters_of(const std::string& path, const AVStream& stream) {
+  const std::int32_t* m = display_matrix(stream);
+  if (m == nullptr) return 0;
+  const double determinant = static_cast<double>(m[0]) * m[4] - static_cast<double>(m[1]) * m[3];
+  if (determinant < 0.0) throw InputError(path, "is to be shown mirrored: no camera sees that");
+  const double clockwise = -av_display_rotation_get(m);
+  const double quarters = std::round(clockwise / 90.0);
+  if (!(std::abs(clockwise - 90.0 * quarters) < 0.1)) {
+    char degrees[32];
+    std::snprintf(degrees, sizeof(degrees), "%.1f", clockwise);
+    throw InputError(path, std::string("is to be shown turned by ") + degrees + " degrees, which is no multiple of 90");
+  }
+  return static_cast<int>(quarters + 4.0) % 4;
+}
+
+}  // namespace
+
+struct VideoDecoder::State {
+  std::string path;
+  Format format;
+  Codec codec;
+  int stream = -1;
+  int quarters = 0;
+  Packet packet{av_packet_alloc()};
+  Frame frame{av_frame_alloc()};
+  Scaler scaler;
+  // What the container promises: images by its index (0: it has none), images by its header (AVI: also those that stand
+  // for a repeated one), and its length [s].
+  long indexed = 0;
+  long declared = 0;
+  double declared_s = 0.0;
+  bool is_avi = false;
+  // What there is.
+  long packets = 0;
+  std::int64_t end = 0;  // of the last image, in the stream's time base
+  long undecoded = 0;
+  long corrupt = 0;
+
+  const AVStream& video() const { return *format->streams[stream]; }
+  std::optional<double> seconds(std::int64_t stamp) const {
+    if (stamp == AV_NOPTS_VALUE) return std::nullopt;
+    return static_cast<double>(stamp) * av_q2d(video().time_base);
+  }
+
+  // Hands the codec one more packet, or the end.
+  void feed() {
+    while (av_read_frame(format.get(), packet.get()) >= 0) {
+      const bool ours = packet->stream_index == stream;
+      if (ours) {
+        note(*packet);
+        if (avcodec_send_packet(codec.get(), packet.get()) < 0) ++undecoded;
+      }
+      av_packet_unref(packet.get());
+      if (ours) return;
+    }
+    avcodec_send_packet(codec.get(), nullptr);
+  }
+
+  void note(const AVPacket& taken) {
+    const std::int64_t start = taken.pts != AV_NOPTS_VALUE && !is_avi ? taken.pts : taken.dts;
+    // An AVI's clock goes on by one for each image and repetition, which has no duration of its own.
+    const std::int64_t duration = std::max<std::int64_t>(taken.duration, is_avi ? 1 : 0);
+    if (start != AV_NOPTS_VALUE) end = std::max(end, start + duration);
+    ++packets;
+  }
+
+  // entries: images of each stream by the index, before any packet is read: later it holds what was found.
+  void note_promises(const std::vector<long>& entries) {
+    is_avi = std::string_view(format->iformat->name) == "avi";
+    // Some formats (FLV, MPEG) show their streams with the packets alone.
+    const auto at = static_cast<std::size_t>(stream);
+    indexed = at < entries.size() ? entries[at] : 0;
+    if (is_avi) declared = static_cast<long>(video().nb_frames);
+    note_length();
+  }
+
+  // Matroska says how long its video is, or how long all streams are; of transport streams FFmpeg itself measures it.
+  void note_length() {
+    const AVDictionaryEntry* tag = av_dict_get(video().metadata, "DURATION", nullptr, 0);
+    int hours = 0;
+    int minutes = 0;
+    double rest = 0.0;
+    if (tag != nullptr && std::sscanf(tag->value, "%d:%d:%lf", &hours, &minutes, &rest) == 3) {
+      declared_s = 3600.0 * hours + 60.0 * minutes + rest;
+    } else if (format->nb_streams == 1 && format->duration != AV_NOPTS_VALUE &&
+               format->duration_estimation_method == AVFMT_DURATION_FROM_STREAM) {
+      declared_s = static_cast<double>(format->duration) / AV_TIME_BASE;
+      if (format->start_time != AV_NOPTS_VALUE) declared_s += static_cast<double>(format->start_time) / AV_TIME_BASE;
+    }
+  }
+};
+
+VideoDecoder::VideoDecoder(const std::string& path) : state_(std::make_unique<State>()) {
+  av_log_set_level(AV_LOG_QUIET);  // the InputError says all that the user needs
+  State& s = *state_;
+  s.path = path;
+  s.format = open_format(path, 0);
+  std::vector<long> indexed;
+  for (unsigned i = 0; i < s.format->nb_streams; ++i)
+    indexed.push_back(avformat_index_get_entries_count(s.format->streams[i]));
+  if (avformat_find_stream_info(s.format.get(), nullptr) < 0) no_video(path);
+  const AVCodec* decoder = nullptr;
+  s.stream = av_find_best_stream(s.format.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &decoder, 0);
+  // Covers of music, and text drawn as a screen, are no videos.
+  if (s.stream < 0 || decoder == nullptr || decoder->id == AV_CODEC_ID_ANSI ||
+      (s.video().disposition & AV_DISPOSITION_ATTACHED_PIC) != 0) {
+    no_video(path);
+  }
+  for (unsigned i = 0; i < s.format->nb_streams; ++i) {
+    if (static_cast<int>(i) != s.stream) s.format->streams[i]->discard = AVDISCARD_ALL;
+  }
+  s.note_promises(indexed);
+  s.quarters = quarters_of(path, s.video());
+  s.codec.reset(avcodec_alloc_context3(decoder));
+  if (s.codec == nullptr || avcodec_parameters_to_context(s.codec.get(), s.video().codecpar) < 0) no_video(path);
+  s.codec->pkt_timebase = s.video().time_base;
+  s.codec->thread_count = 0;
+  if (avcodec_open2(s.codec.get(), decoder, nullptr) < 0) no_video(path);
+}
+
+VideoDecoder::~VideoDecoder() = default;
+VideoDecoder::VideoDecoder(VideoDecoder&&) noexcept = default;
+VideoDecoder& VideoDecoder::operator=(VideoDecoder&&) noexcept = default;
+
+int VideoDecoder::quarters() const { return state_->quarters; }
+bool VideoDecoder::has_stamps() const { return holds_stamps(state_->path); }
+
+double VideoDecoder::rate() const {
+  const AVRational rate = av_guess_frame_rate(state_->format.get(), state_->format->streams[state_->stream], nullptr);
+  return rate.num > 0 && rate.den > 0 ? av_q2d(rate) : 0.0;
+}
+
+bool VideoDecoder::next() {
+  State& s = *state_;
+  while (true) {
+    const int received = avcodec_receive_frame(s.codec.get(), s.frame.get());
+    if (received == 0) {
+      if ((s.frame->flags & AV_FRAME_FLAG_CORRUPT) != 0 || s.frame->decode_error_flags != 0) ++s.corrupt;
+      return true;
+    }
+    if (received == AVERROR_EOF) return false;
+    if (received != AVERROR(EAGAIN)) ++s.undecoded;
+    s.feed();
+  }
+}
+
+VideoDecoder::Damage VideoDecoder::damage() const {
+  const State& s = *state_;
+  Damage damage;
+  damage.undecoded = s.undecoded;
+  damage.corrupt = s.corrupt;
+  damage.missing = std::max(0L, s.indexed - s.packets);
+  // An AVI's stamps count its images and repetitions.
+  if (s.is_avi) damage.missing = std::max({0L, damage.missing, s.declared - static_cast<long>(s.end)});
+  damage.shifts_stamps = s.is_avi && damage.missing > 0;
+  const double end_s = s.seconds(s.end).value_or(0.0);
+  const double image_s = rate() > 0.0 ? 1.0 / rate() : 0.0;
+  // The last image's own length is often unknown, and then not in `end`.
+  if (damage.missing == 0 && s.declared_s - end_s > 1.5 * image_s + 0.01) damage.missing_s = s.declared_s - end_s;
+  return damage;
+}
+
+std::optional<double> VideoDecoder::time() const { return state_->seconds(state_->frame->pts); }
+std::optional<double> VideoDecoder::best_time() const {
+  const std::optional<double> stamp = time();
+  return stamp ? stamp : state_->seconds(state_->frame->best_effort_timestamp);
+}
+
+cv::Size VideoDecoder::size() const {
+  const cv::Size stored(state_->frame->width, state_->frame->height);
+  return state_->quarters % 2 == 0 ? stored : cv::Size(stored.height, stored.width);
+}
+
+cv::Mat3b VideoDecoder::image() const {
+  State& s = *state_;
+  const AVFrame& frame = *s.frame;
+  s.scaler.reset(sws_getCachedContext(
+      s.scaler.release(), frame.width, frame.height, static_cast<AVPixelFormat>(frame.format), frame.width,
+      frame.height, AV_PIX_FMT_RGB24, SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT, nullptr,
+      nullptr, nullptr));
+  if (s.scaler == nullptr) throw InputError(s.path, "its pixel format cannot be converted to R, G, B");
+  int* inverse = nullptr;
+  int* table = nullptr;
+  int full_range = 0;
+  int rgb_range = 0;
+  int brightness = 0;
+  int contrast = 0;
+  int saturation = 0;
+  if (sws_getColorspaceDetails(s.scaler.get(), &inverse, &full_range, &table, &rgb_range, &brightness, &contrast,
+                               &saturation) >= 0) {
+    if (frame.color_range == AVCOL_RANGE_JPEG) full_range = 1;
+    sws_setColorspaceDetails(s.scaler.get(), sws_getCoefficients(frame.colorspace), full_range, table, rgb_range,
+                             brightness, contrast, saturation);
+  }
+  cv::Mat3b stored(frame.height, frame.width);
+  std::uint8_t* const planes[4] = {stored.data, nullptr, nullptr, nullptr};
+  const int steps[4] = {static_cast<int>(stored.step), 0, 0, 0};
+  if (sws_scale(s.scaler.get(), frame.data, frame.linesize, 0, frame.height, planes, steps) != frame.height) {
+    throw InputError(s.path, "a frame cannot be converted to R, G, B");
+  }
+  if (s.quarters == 0) return stored;
+  cv::Mat3b turned;
+  cv::rotate(stored, turned, s.quarters - 1);  // cv::ROTATE_90_CLOCKWISE is 0
+  return turned;
+}
+
+}  // namespace odosplat

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include "odosplat/camera/camera.hpp"
+#include "odosplat/core/se3.hpp"
+#include "odosplat/map/map_view.hpp"
+
+namespace odosplat {
+
+/// What the map looks like from one pose, with that pose: the images belong to no other.
+struct RenderedView {
+  SE3 T_world_camera;
+  ViewImages images;
+};
+
+/// Root mean square motion [px] of what the view shows when the camera goes from there to T_world_camera, over a grid
+/// of pixels with depth. Infinite where it shows nothing or where most of it leaves the image.
+double view_flow(const Camera& camera, const RenderedView& view, const SE3& T_world_camera);
+
+}  // namespace odosplat

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/odometry/frame/frame_tracker.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "odosplat/core/error.hpp"
+
+namespace odosplat {
+
+void AcceptOptions::check() const {
+  require(min_inliers >= 0.0 && min_inliers <= 1.0, "accept.min_inliers", "in [0, 1]");
+  require(min_coverage >= 0.0 && min_coverage <= 1.0, "accept.min_coverage", "in [0, 1]");
+  require(min_contrast >= 0.0 && max_contrast > min_contrast, "accept.min_contrast", "in [0, max_contrast)");
+  require(min_correlation >= -1.0 && min_correlation <= 1.0, "accept.min_correlation", "in [-1, 1]");
+  require(sure_correlation >= min_correlation, "accept.sure_correlation", "at least min_correlation");
+  require(motion_translation > 0.0 && motion_rotation > 0.0, "accept.motion_translation and motion_rotation",
+          "positive");
+  require(retrack >= 1.0, "accept.retrack", "at least 1");
+  require(retrack_outliers >= 0.0, "accept.retrack_outliers", "at least 0");
+  require(found_inliers >= 0.0 && found_inliers <= 1.0, "accept.found_inliers", "in [0, 1]");
+  require(found_coverage >= 0.0 && found_coverage <= 1.0, "accept.found_coverage", "in [0, 1]");
+}
+
+void FrameTrackerOptions::check() const {
+  aligner.check();
+  policy.check();
+  accept.check();
+}
+
+FrameTracker::FrameTracker(const FrameTrackerOptions& options) : options_(options), aligner_(options.aligner) {
+  options_.check();
+}
+
+TrackedFrame FrameTracker::track(std::shared_ptr<const FramePyramid> pyramid, double time) {
+  TrackedFrame frame;
+  frame.was_lost = lost_;
+  // Light that flickers over the rows is nearly that of the last frame.
+  frame.image = make_even(std::move(pyramid), last_row_gain_);
+  if (!lost_) frame.alignment = track_against_reference(*frame.image.even, time);
+  if (lost_ || !believed(frame.alignment, false)) frame.alignment = search_references(*frame.image.even);
+  frame.found = believed(frame.alignment, lost_);
+  if (!frame.found) return frame;
+  even_rows(aligner_, *reference().points, frame.image, frame.alignment);
+  last_row_gain_ = frame.image.row_gain;
+  const Alignment& alignment = frame.alignment;
+  const ReferenceFrame& host = reference();
+  frame.doubtful = !lost_ && !as_good_as_last(alignment) && alignment.correlation < options_.accept.sure_correlation;
+  frame.after_gap = history_.has_velocity && steps_ahead(history_, time) == 0.0;
+  frame.keyframe = host.id;
+  frame.T_keyframe_camera = alignment.T_target_host.inverse();
+  frame.T_world_camera = host.T_world_camera * frame.T_keyframe_camera;
+  frame.brightness = compose_brightness(alignment.brightness, host.brightness);
+  if (host.patches != nullptr) {
+    frame.evidence = host.patches->compare(*frame.image.even, frame.T_world_camera);
+    frame.verifiable = host.in_map;
+    frame.misfit = host.misfit;
+  }
+  // exp(xi) right of T_target_host is exp(-Ad xi) left of T_world_camera.
+  const Matrix6d adjoint = host.T_world_camera.adjoint();
+  Matrix6d information = alignment.information;
+  information.diagonal().array() += 1e-9;
+  frame.covariance = adjoint * information.inverse() * adjoint.transpose();
+  frame.keyframe_covariance = host.covariance;
+  relative_brightness_ = alignment.brightness;
+  last_brightness_ = frame.brightness;
+  last_rmse_ = alignment.rmse;
+  last_inlier_share_ = alignment.inlier_share;
+  const double first_rmse = first_rmse_;
+  if (first_rmse_ <= 0.0) first_rmse_ = std::max(alignment.rmse, 1.0 / 255);
+  frame.keyframe_score = keyframe_score(*host.points, alignment, first_rmse, options_.policy).score;
+  return frame;
+}
+
+void FrameTracker::set_references(std::vector<ReferenceFrame> references, const SE3& T_new_old) {
+  history_.move(T_new_old);
+  const int newest_before = references_.empty() ? -1 : references_.back().id;
+  const int current_before = references_.empty() ? -1 : reference().id;
+  references_ = std::move(references);
+  current_ = references_.size() - 1;
+  if (references_.back().id != newest_before) {
+    first_rmse_ = 0.0;
+    // After a loss the newest keyframe is the last frame itself, and what was believed of its brightness is not.
+    if (lost_) last_brightness_ = references_.back().brightness;
+    relative_brightness_ = relative_brightness(last_brightness_, references_.back().brightness);
+    return;
+  }
+  for (std::size_t k = 0; k < references_.size(); ++k) {
+    if (references_[k].id == current_before) current_ = k;
+  }
+}
+
+void FrameTracker::confirm(double time, const SE3& T_world_camera) {
+  if (lost_) history_.clear();
+  lost_ = false;
+  history_.add(time, T_world_camera);
+}
+
+void FrameTracker::lose() {
+  history_.stop();
+  last_row_gain_.clear();
+  lost_ = !references_.empty();
+}
+
+Alignment FrameTracker::track_against_reference(const FramePyramid& pyramid, double time) const {
+  const SE3& T_world_host = reference().T_world_camera;
+  const TrackingReference& points = *reference().points;
+  const auto relative = [&T_world_host](std::vector<SE3> poses) {
+    for (SE3& T : poses) T = T.inverse() * T_world_host;
+    return poses;
+  };
+  const auto guesses = relative(motion_guesses(history_, time, T_world_host));
+  const int top = pyramid.levels() - 1;
+  // A step's uncertainty grows with its length in time; where nothing is known of the velocity, nothing is held.
+  const double steps = steps_ahead(history_, time);
+  const double scale = std::max(1.0, steps);
+  const PosePrior motion =
+      pose_prior(guesses.front(), scale * options_.accept.motion_translation, scale * options_.accept.motion_rotation);
+  const PosePrior* held = steps > 0.0 ? &motion : nullptr;
+  Alignment best = aligner_.align(points, pyramid, guesses.front(), relative_brightness_, top, 0, held);
+  if (believed(best, false) && as_good_as_last(best)) return best;
+
+  const auto offer = [&](const Alignment& other) {
+    if (worth(other) > worth(best)) best = other;
+  };
+  // Repeated patterns lead coarse levels astray where the prediction itself was close: start lower.
+  for (int level = std::min(2, top - 1); level >= 0; --level) {
+    offer(aligner_.align(points, pyramid, guesses.front(), relative_brightness_, level, 0, held));
+  }
+  if (believed(best, false) && as_good_as_last(best)) return best;
+  auto more = guesses;
+  for (const double angle : {0.02, 0.05}) {
+    const auto turned = relative(rotated_guesses(predict(history_, time), angle));
+    more.insert(more.end(), turned.begin(), turned.end());
+  }
+  offer(aligner_.align_best(points, pyramid, more, relative_brightness_));
+  return best;
+}
+
+bool FrameTracker::as_good_as_last(const Alignment& a) const {
+  if (last_rmse_ <= 0.0) return true;
+  const AcceptOptions& accept = options_.accept;
+  return a.rmse <= accept.retrack * std::max(last_rmse_, 2.0 / 255) &&
+         1.0 - a.inlier_share <= accept.retrack * (1.0 - last_inlier_share_) + accept.retrack_outliers;
+}
+
+Alignment FrameTracker::search_references(const FramePyramid& pyramid) {
+  // Newest first: the camera was there last. The first keyframe that is believed becomes the reference.
+  Alignment best;
+  const SE3 T_world_last = history_.has_last ? history_.last : reference().T_world_camera;
+  for (std::size_t k = references_.size(); k-- > 0;) {
+    const SE3& T_world_host = references_[k].T_world_camera;
+    std::vector<SE3> guesses{SE3(), T_world_last.inverse() * T_world_host};
+    for (const double angle : {0.05, 0.12}) {
+      for (const SE3& T : rotated_guesses(T_world_host, angle)) guesses.push_back(T.inverse() * T_world_host);
+    }
+    const Alignment alignment = aligner_.align_best(*references_[k].points, pyramid, guesses, {});
+    if (believed(alignment, true)) {
+      current_ = k;
+      first_rmse_ = 0.0;
+      return alignment;
+    }
+    if (alignment.inlier_share > best.inlier_share) best = alignment;
+  }
+  best.finished = false;
+  return best;
+}
+
+bool FrameTracker::believed(const Alignment& a, bool was_lost) const {
+  const AcceptOptions& accept = options_.accept;
+  return a.finished && a.T_target_host.is_finite() &&
+         a.inlier_share >= (was_lost ? accept.found_inliers : accept.min_inliers) &&
+         a.coverage >= (was_lost ? accept.found_coverage : accept.min_coverage) && a.contrast >= accept.min_contrast &&
+         a.contrast <= accept.max_contrast && a.correlation >= accept.min_correlation &&
+         std::abs(a.brightness.a) <= options_.aligner.max_log_gain;
+}
+
+}  // namespace odosplat

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "odosplat/map/map_view.hpp"
+#include "odosplat/odometry/align/image_aligner.hpp"
+#include "odosplat/odometry/frame/even_rows.hpp"
+#include "odosplat/odometry/keyframe/keyframe.hpp"
+#include "odosplat/odometry/light/image_blur.hpp"
+#include "odosplat/odometry/light/residual_weights.hpp"
+#include "odosplat/odometry/light/tone_curve.hpp"
+#include "odosplat/odometry/points/immature_points.hpp"
+#include "odosplat/odometry/window/window_points.hpp"
+
+namespace odosplat {
+
+struct AnchorOptions {
+  bool enabled = true;
+  double noise = 5.0 / 255;  // [grey] residual of a rendered view at which it counts like a real image
+  double strength = 8.0;     // factor of its weight: one rendered view stands against six keyframes, and its points'
+                             // weights are below 1 where image and map agree less than well (agreement)
+  // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2) of the rendered view's points in the window. Edges of a map
+  // are out of place by parts of a pixel, so that strong ones say less than in an image. ATE [mm] with 10, and with the
+  // images' 50: icl_office_kt3 1.8, 2.1; redkitchen 20, 22; the stand-ins icl_3 3.0, 4.2 and augm_1 5.8, 6.2; but
+  // aug_icl_livingroom1, whose map is sharp, 0.67, 0.55. The alignment before keeps the images': by small ones alone,
+  // a map of other colours was believed.
+  double gradient_weight = 10.0 / 255;
+  // Share of its points that must agree with the real image. The coarse map of a real room (20 dB) reaches 0.4 to 0.6
+  // and still holds the camera: with 0.6 it drifted by 7 cm (7-Scenes redkitchen), with 0.4 by 2.4.
+  double min_inliers = 0.4;
+  double min_coverage = 0.3;       // share of its points that must be in view
+  double max_rmse = 12.0 / 255;    // [grey]
+  double render_again_flow = 2.0;  // [px] a keyframe that the map moves further is rendered from its new place
+  double reset_flow = 4.0;         // [px] beyond, the rest of the window is believed to be wrong and is dropped
+  // A bare rendered view (ReferenceOptions) tells some directions of motion by weak shading, in which the map's colours
+  // err over many pixels together. Its alignment is held to the tracked pose.
+  double bare_translation = 0.007;  // [m] standard deviation of that tie
+  double bare_rotation = 0.0035;    // [rad] the same
+  double far_off_angle = 0.04;      // [rad] of turned guesses, at the start and when the camera comes back into the map
+
+  // Of a start that is found from turned guesses; below, the start pose alone is tried. Right ones reach 0.8 to 0.96
+  // before they are rendered again, chance 0.68, and 0.83 in a map of inverted colours.
+  double far_off_correlation = 0.9;
+
+  ToneOptions tone;  // of the image against the map's colours
+  BlurOptions blur;  // the same
+  // Of the points in the window. ATE [mm] of icl_office_kt3, redkitchen, aug_icl_livingroom1 and the stand-ins icl_3
+  // and icl_1 with noise 1.5 and strength 8: 1.5, 17, 0.68, 2.2, 2.1; 4 and 4: 1.7, 19, 0.63, 2.4, 2.2. In the
+  // alignment before it gains nothing.
+  ResidualWeightOptions agreement;
+  // Of the map's depth in the keyframe's own image: where image and map differ by more, something else may stand there.
+  // It acts by its square. Pieces of the office's map moved by 30 cm cost 2.4 to 3.1 times the error in one of three
+  // draws, with this 1.1; livingroom1, whose map is whole, 0.68 -> 0.54 mm.
+  ResidualWeightOptions depth_agreement{.noise = 4.0 / 255};
+
+  void check() const;
+};
+
+struct KeyframeMakerOptions {
+  SelectorOptions selector;
+  SelectorOptions weak_selector = weak_selector_options();  // for bare images
+  ReferenceOptions reference;
+  MapPlaneOptions plane;
+  WindowPointOptions window_points;
+  ImmaturePointOptions immature;
+  AnchorOptions anchor;
+  double smoothing = 0.8;      // [px] of all images before use, real and rendered; 0: none
+  double min_map_share = 0.5;  // of the image with map depth, below which the camera counts as outside: what is left of
+                               // the map lies at the image's rim and at the map's, where both are worst
+  double full_share = 0.8;     // of the image with map depth, from which on the window gets as many points as it wants
+  double hole = 0.015;         // of width + height: holes at least this wide in the map's depth are borders of the map
+  double border = 0.04;  // of width + height: how near to them depth is not used. Gaussians at the border were seen
+                         // from few sides and stick out
+  int min_points = 100;  // with depth, on full size, the map's or other keyframes'; fewer make no keyframe
+
+  void check() const;
+};
+
+/// What is known beside the image and the map.
+struct KeyframeContext {
+  bool first = false;         // there is no other keyframe to search in, and the pose is not a tracked one
+  int other_points = 0;       // estimated points of other keyframes that this image sees; they count towards min_points
+  bool distrust_map = false;  // the camera has been outside the map: where the map was rendered from may be far off, so
+                              // that its depth is used only if the rendered image is found in the real one
+};
+
+/// What came of the attempt to make a keyframe.
+struct MadeKeyframe {
+  std::shared_ptr<Keyframe> keyframe;  // null: too little depth there. Its reference has the map's points alone
+  TrackingReference reference;         // the keyframe's, for the caller to complete and to give to it
+  bool in_map = false;                 // the map alone shows enough, and is believed
+  bool verifiable = false;             // the map has colours to be compared with the image
+  double point_share = 0.0;            // of the window's points wanted that the map is asked for
+  double map_share = 0.0;              // share of the image with map depth
+  bool anchored = false;
+  std::optional<EvenFrame> evened;  // where the rendered view shows that the image's rows are not alike: the image as
+                                    // the keyframe should be made of
+  Alignment anchor;                 // of the keyframe's image against the rendered one
+  SE3 T_world_camera_map;           // where that alignment puts the camera, if anchored
+  double map_flow = 0.0;            // [px] root mean square image motion between that and the pose rendered from
+};
+
+/// Share of the view's pixels with depth.
+double map_share(const ViewImages& view);
+
+/// Turns an image and the map's view from its pose into a keyframe: points with map depth for tracking and for the
+/// window, and the rendered view itself as anchor where it resembles the image. Holds scratch memory; not thread safe.
+class KeyframeMaker {
+ public:
+  explicit KeyframeMaker(const KeyframeMakerOptions& options);
+
+  /// gradients: the even image's, of every level. view must have been rendered with the image's camera from
+  /// T_world_camera. The keyframe's pose and brightness are as given; id, frame and time are left to the caller.
+  /// aligner aligns image and rendered view.
+  MadeKeyframe make(const EvenFrame& image, std::span<const GradientImage> gradients, const ViewImages& view,
+                    const SE3& T_world_camera, const Brightness& brightness, const ImageAligner& aligner,
+                    const KeyframeContext& context = {});
+
+  const KeyframeMakerOptions& options() const { return options_; }
+
+ private:
+  /// Returns how far the map's depth is to be trusted; none if there is no anchor.
+  std::optional<ResidualWeights> add_anchor(MadeKeyframe& made, const EvenFrame& image, const ViewImages& view,
+                                            const ImageAligner& aligner, const KeyframeContext& context);
+  /// What the aligner and the window need of a rendered view, in other grey values than its own if these are toned.
+  struct RenderedReference {
+    std::vector<GradientImage> gradients;
+    TrackingReference reference;
+  };
+  RenderedReference rendered_reference(const Camera& camera, const GrayImage& gray, const ViewImages& view);
+  ViewImages without_border(const ViewImages& view, double share) const;
+  void add_points(MadeKeyframe& made, const Camera& camera, std::span<const GradientImage> gradients,
+                  const ViewImages& view, bool first);
+
+  /// The selectors of one purpose: each keeps its cell size from image to image.
+  struct Selectors {
+    PixelSelector usual;
+    PixelSelector weak;
+    PixelSelector& of(bool bare) { return bare ? weak : usual; }
+  };
+
+  KeyframeMakerOptions options_;
+  Selectors reference_selectors_;
+  Selectors window_selectors_;
+  Selectors map_reference_selectors_;
+  Selectors anchor_selectors_;
+  PixelSelector immature_selector_;
+};
+
+}  // namespace odosplat

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "odosplat/odometry/align/image_aligner.hpp"
+#include "odosplat/odometry/keyframe/keyframe.hpp"
+
+namespace odosplat {
+
+/// Measured: icl_office_kt3 there and back in maps of a part of it, frames 1 to 550 (two of these), 1 to 400 and 1 to
+/// 480; frames until the camera is within 5 mm again after each of its eight ways back: 50 52, 49 61, 41 55, 38 38
+/// without memory, 9 24, 11 11, 17 0, 18 0 with it. Below, how many of the eight take more than 30.
+struct KeyframeMemoryOptions {
+  bool enabled = true;
+  double map_share = 0.9;    // of the image with map depth, below which remembered keyframes are asked. With 0.7: 3
+  int max_links = 1;         // keyframes of more links to the map are not kept. 0: 3; 2: 4, as it believes drift
+  double likeness = 0.3;     // least of a keyframe that is asked; 0.4: 1
+  double known = 0.92;       // likeness of one that is kept, from which on a keyframe says nothing new
+  double parallax = 0.3;     // [rad] between a point's rays in both images at which it counts 1/e towards likeness
+  int views = 3;             // most that hold one image: each errs by some millimetres over 50 frames. 1: 2
+  double strength = 2.0;     // factor of their weight in the window, all together; shared out by squared likeness
+  double min_inliers = 0.6;  // of the alignment with a remembered keyframe
+  double min_correlation = 0.98;  // the same. 0.95: 0, but it drifts by up to 152 mm outside, and not by 87
+  double max_rmse = 8.0 / 255;    // [grey] the same
+  int capacity = 400;             // keyframes, of 0.3 MB at 320x240; the one not asked for longest goes first
+
+  void check() const;
+};
+
+/// A remembered keyframe found in an image.
+struct Recollection {
+  Anchor anchor;       // the keyframe as it was made, its pose and depth taken as known
+  SE3 T_world_camera;  // where it puts the image's camera
+  double flow = 0.0;  // [px] root mean square motion of its points in the image from where the camera was thought to be
+  int links = 0;      // between it and the map
+};
+
+/// Keyframes that the map held, kept for where it shows little: at its border, a map is at its worst, and a real image
+/// taken there says more, with the depth that its window gave it. So a camera that leaves the map is held by what it
+/// saw last, and finds itself by that when it returns. Not thread safe.
+class KeyframeMemory {
+ public:
+  KeyframeMemory(const Camera& camera, const KeyframeMemoryOptions& options);
+
+  /// Keeps a keyframe with reference and anchors unless it says nothing new. links: 0 if the map held it in full view;
+  /// else one more than the least of the recollections that hold it.
+  void remember(std::shared_ptr<const Keyframe> keyframe, int links);
+  /// Its pose has turned out to be wrong.
+  void forget(const Keyframe& keyframe);
+  /// What is found in the image of a camera near T_world_camera [m], the likest first; none if nothing is.
+  std::vector<Recollection> recall(const FramePyramid& image, const SE3& T_world_camera, const ImageAligner& aligner);
+
+  std::size_t size() const { return kept_.size(); }
+  const KeyframeMemoryOptions& options() const { return options_; }
+
+ private:
+  struct Kept {
+    std::shared_ptr<const Keyframe> keyframe;
+    int links = 0;
+    int last_use = 0;
+  };
+  /// Share of the keyframe's points that a camera there sees, less the more its rays have turned.
+  double likeness(const Keyframe& keyframe, const SE3& T_world_camera) const;
+
+  Camera camera_;
+  KeyframeMemoryOptions options_;
+  std::vector<Kept> kept_;
+  int uses_ = 0;
+};
+
+}  // namespace odosplat

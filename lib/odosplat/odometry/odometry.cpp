@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/odometry/odometry.hpp"
+
+#include <cmath>
+
+#include "odosplat/core/error.hpp"
+#include "odosplat/odometry/frame/least_size.hpp"
+#include "odosplat/odometry/relocalise/relocalizer.hpp"
+
+namespace odosplat {
+namespace {
+
+enum StageIndex : std::size_t { stage_pyramid, stage_track, stage_relocalise };
+
+bool shows_nothing(const FramePyramid& pyramid) {
+  constexpr double least_spread = 1.0 / 255;
+  cv::Scalar mean;
+  cv::Scalar spread;
+  cv::meanStdDev(pyramid.gray.back(), mean, spread);
+  return !(spread[0] > least_spread);
+}
+
+}  // namespace
+
+void OdometryOptions::check() const {
+  aligner.check();
+  keyframe.check();
+  confirmation.check();
+  misfit.check();
+  memory.check();
+  policy.check();
+  window.check();
+  optimizer.check();
+  marginalization.check();
+  activation.check();
+  drift.check();
+  accept.check();
+  require(frame_covariance_factor > 0.0, "frame_covariance_factor", "positive");
+  require(keyframe_covariance_factor > 0.0, "keyframe_covariance_factor", "positive");
+  require(prefetch_images >= 0.0, "prefetch_images", "at least 0");
+  require(max_unconfirmed >= 0, "max_unconfirmed", "at least 0");
+  require(max_misfit_translation > 0.0 && max_misfit_rotation > 0.0, "max_misfit_translation and max_misfit_rotation",
+          "positive");
+}
+
+std::string to_string(TrackStatus status) {
+  switch (status) {
+    case TrackStatus::ok:
+      return "ok";
+    case TrackStatus::relocalised:
+      return "relocalised";
+    case TrackStatus::lost:
+      break;
+  }
+  return "lost";
+}
+
+Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& options, const SE3& T_world_camera_start)
+    : camera_(camera),
+      options_(options),
+      T_world_camera_start_(T_world_camera_start),
+      front_({options.aligner, options.policy, options.accept}),
+      backend_(camera, map, front_.aligner(),
+               {options.keyframe, options.confirmation, options.misfit, options.memory, options.window,
+                options.optimizer, options.marginalization, options.activation, options.drift}) {
+  camera_.check();
+  check_least_size(camera_);
+  options_.check();
+  require(T_world_camera_start.is_finite(), "start pose", "finite");
+  if (options_.background) thread_ = std::make_unique<KeyframeThread>(backend_);
+}
+
+Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& options, Relocalizer& relocalizer)
+    : Odometry(camera, map, options, SE3()) {
+  T_world_camera_start_.reset();
+  relocalizer_ = &relocalizer;
+}
+
+TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr<MapView> view) {
+  const auto start = SteadyClock::now();
+  if (thread_ != nullptr) take_over_finished(thread_->take());
+  KeyframeRequest request;
+  request.view = std::move(view);
+  request.frame = counts_.frames;
+  request.time = time;
+  {
+    const StageTimer timer(stages_[stage_pyramid]);
+    request.image =
+        make_even(std::make_shared<FramePyramid>(build_frame_pyramid(camera_, image, options_.keyframe.smoothing)));
+  }
+  TrackResult result;
+  ++counts_.frames;
+  if (shows_nothing(*request.image.taken)) {
+    // A covered lens is not worth a search.
+  } else if (!front_.empty()) {
+    follow(image, request, result);
+  } else if (!T_world_camera_start_) {
+    relocalise(image, request, result);
+  } else {
+    // Until the first keyframe stands, the camera is where the caller said.
+    request.T_world_camera = *T_world_camera_start_;
+    make_keyframe(request, result);
+    if (result.keyframe && !stands(keyframe_evidence_, keyframe_misfit_, true)) {
+      refuse(image, request, result, keyframe_evidence_);
+    } else if (result.keyframe) {
+      result.status = TrackStatus::ok;
+      result.inlier_share = 1.0;
+      result.coverage = 1.0;
+      result.evidence = keyframe_evidence_;
+    } else if (options_.confirmation.enabled) {
+      relocalise(image, request, result);  // the map shows nothing from there
+    }
+  }
+  result.map_share = map_share_;
+  if (result.status == TrackStatus::lost) {
+    result.T_world_camera = SE3();
+    record_.withdraw(time);
+    front_.lose();
+    ++counts_.lost;
+  } else {
+    judge(result);
+    lost_in_a_row_ = 0;
+    if (result.status == TrackStatus::relocalised) ++counts_.relocalisations;
+    front_.confirm(time, result.T_world_camera);
+    ++counts_.posed;
+  }
+  result.milliseconds = milliseconds_since(start);
+  return result;
+}
+
+void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackResult& result) {
+  TrackedFrame frame;
+  {
+    const StageTimer timer(stages_[stage_track]);
+    frame = front_.track(request.image.taken, request.time);
+  }
+  result.inlier_share = frame.alignment.inlier_share;
+  result.coverage = frame.alignment.coverage;
+  result.rmse = frame.alignment.rmse;
+  result.correlation = frame.alignment.correlation;
+  if (!frame.found) {
+    relocalise(image, request, result);
+    return;
+  }
+  result.evidence = frame.evidence;
+  if (frame.verifiable &&
+      !stands(frame.evidence, frame.misfit, frame.was_lost || frame.after_gap || to_be_confirmed_)) {
+    refuse(image, request, result, frame.evidence);
+    return;
+  }
+  if (frame.doubtful && relocalise(image, request, result, frame.T_world_camera)) return;
+  result.status = frame.was_lost ? TrackStatus::relocalised : TrackStatus::ok;
+  result.T_world_camera = frame.T_world_camera;
+  result.covariance = options_.frame_covariance_factor * frame.covariance +
+                      options_.keyframe_covariance_factor * frame.keyframe_covariance + frame.misfit.covariance;
+  result.misfit = frame.misfit.meters;
+  record_.add_frame(request.time, frame.keyframe, frame.T_keyframe_camera, frame.was_lost);
+  request.T_world_camera = frame.T_world_camera;
+  request.brightness = frame.brightness;
+  request.image = frame.image;
+  const TrackedImage tracked{frame.image.even, frame.T_world_camera, frame.brightness};
+  if (thread_ != nullptr) {
+    thread_->observe(tracked);
+  } else {
+    backend_.trace(tracked);
+  }
+  if (frame.keyframe_due()) {
+    make_keyframe(request, result);
+    if (!result.keyframe) return;
+    if (keyframe_evidence_.verdict == Confirmation::confirmed) result.evidence = keyframe_evidence_;
+    if (to_be_confirmed_ && result.evidence.verdict != Confirmation::confirmed) {
+      refuse(image, request, result, keyframe_evidence_);
+    }
+  } else if (thread_ != nullptr && request.view == nullptr) {
+    render_ahead(frame, request.time);
+  }
+}
+
+bool Odometry::stands(const MapEvidence& evidence, const MisfitEffect& misfit, bool to_be_confirmed) const {
+  if (front_.empty() || front_.newest().patches == nullptr) return true;
+  if (misfit.meters > options_.max_misfit_translation || misfit.radians > options_.max_misfit_rotation) return false;
+  if (evidence.verdict == Confirmation::confirmed) return true;
+  return !to_be_confirmed && evidence.verdict != Confirmation::contradicted;
+}
+
+void Odometry::refuse(const GrayImage& image, const KeyframeRequest& request, TrackResult& result,
+                      const MapEvidence& evidence) {
+  TrackResult refused;
+  refused.inlier_share = result.inlier_share;
+  refused.coverage = result.coverage;
+  refused.rmse = result.rmse;
+  refused.correlation = result.correlation;
+  refused.evidence = evidence;
+  result = refused;
+  ++counts_.refused;
+  relocalise(image, request, result);
+}
+
+void Odometry::judge(TrackResult& result) {
+  const bool confirmed = result.evidence.verdict == Confirmation::confirmed;
+  unconfirmed_ = confirmed ? 0 : unconfirmed_ + 1;
+  if (confirmed) {
+    ++counts_.confirmed;
+    to_be_confirmed_ = false;
+  }
+  if (!in_map_) return;
+  const bool silent = result.evidence.verdict == Confirmation::none && unconfirmed_ <= options_.max_unconfirmed;
+  result.in_map = confirmed || silent || front_.newest().patches == nullptr;
+  if (!result.in_map) result.covariance += unconfirmed_ * drift_covariance(options_.drift, result.T_world_camera);
+}
+
+bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request, TrackResult& result,
+                          const std::optional<SE3>& T_world_tracked) {
+  // A look-up costs as much as tracking many frames: after a while it is tried less often.
+  constexpr int eager = 15;
+  constexpr int every = 5;
+  const int before = lost_in_a_row_++;
+  if (relocalizer_ == nullptr || (before >= eager && before % every != 0)) return false;
+  finish();  // the map is ours from here on
+  Relocalization answer;
+  {
+    const StageTimer timer(stages_[stage_relocalise]);
+    const MotionHistory& history = front_.history();
+    answer = history.has_last ? relocalizer_->find(image, history.last) : relocalizer_->find(image);
+  }
+  if (!answer.found) return false;
+  constexpr double same_distance = 0.1;  // [m]
+  constexpr double same_angle = 0.1;     // [rad]
+  if (T_world_tracked) {
+    const SE3 T_tracked_found = T_world_tracked->inverse() * answer.T_world_camera;
+    if (T_tracked_found.translation().norm() < same_distance && T_tracked_found.angle() < same_angle) return false;
+  }
+  KeyframeRequest afresh = request;
+  afresh.T_world_camera = answer.T_world_camera;
+  afresh.brightness = {};
+  afresh.fresh = true;
+  TrackResult made;
+  front_.lose();  // how the camera came here is not known, nor what was believed of this frame
+  make_keyframe(afresh, made);
+  if (!made.keyframe || !stands(keyframe_evidence_, keyframe_misfit_, true)) return false;
+  result.evidence = keyframe_evidence_;
+  result.misfit = made.misfit;
+  result.status = TrackStatus::relocalised;
+  result.T_world_camera = made.T_world_camera;
+  result.covariance = made.covariance;
+  result.keyframe = true;
+  result.anchored = made.anchored;
+  result.inlier_share = answer.inlier_share;
+  result.coverage = 1.0;
+  return true;
+}
+
+void Odometry::finish() {
+  if (thread_ != nullptr) take_over_finished(thread_->wait());
+}
+
+void Odometry::make_keyframe(const KeyframeRequest& request, TrackResult& result) {
+  // With nothing to track against meanwhile, there is nothing to do but wait.
+  if (thread_ != nullptr && !front_.empty() && !request.fresh) {
+    thread_->request(request);
+    return;
+  }
+  const int before = counts_.keyframes;
+  const int anchored_before = counts_.anchored;
+  if (thread_ != nullptr) {
+    thread_->request(request);
+    finish();
+  } else {
+    KeyframeRequest numbered = request;
+    numbered.id = counts_.keyframes;
+    take_over(numbered, backend_.add(numbered));
+  }
+  if (counts_.keyframes == before) return;
+  result.T_world_camera = front_.newest().T_world_camera;
+  result.covariance = options_.keyframe_covariance_factor * front_.newest().covariance + keyframe_misfit_.covariance;
+  result.misfit = keyframe_misfit_.meters;
+  result.keyframe = true;
+  result.anchored = counts_.anchored > anchored_before;
+}
+
+void Odometry::take_over_finished(const std::optional<FinishedKeyframe>& finished) {
+  if (!finished) return;
+  backend_stages_ = finished->stages;
+  take_over(finished->request, finished->outcome);
+}
+
+void Odometry::take_over(const KeyframeRequest& request, const KeyframeOutcome& outcome) {
+  map_share_ = outcome.map_share;
+  keyframe_evidence_ = outcome.evidence;
+  keyframe_misfit_ = outcome.misfit;
+  if (outcome.made) counts_.likely_cause = outcome.likely_cause;
+  rendered_ahead_ = false;
+  if (!outcome.made) return;
+  in_map_ = outcome.in_map;
+  const ReferenceFrame& keyframe = outcome.window.back();
+  record_.add_keyframe(request.time, keyframe.T_world_camera, request.fresh);
+  for (const ReferenceFrame& k : outcome.window) record_.move_keyframe(k.id, k.T_world_camera);
+  ++counts_.keyframes;
+  if (outcome.anchored) ++counts_.anchored;
+  if (outcome.prefetched) ++counts_.prefetched;
+  front_.set_references(outcome.window, keyframe.T_world_camera * request.T_world_camera.inverse());
+  to_be_confirmed_ =
+      in_map_ && outcome.evidence.verdict != Confirmation::none && !stands(outcome.evidence, outcome.misfit, false);
+}
+
+void Odometry::render_ahead(const TrackedFrame& frame, double time) {
+  MotionHistory history = front_.history();
+  if (rendered_ahead_ || frame.was_lost || !history.has_last || !(frame.keyframe_score > 0.0)) return;
+  // The score grows about evenly with time from 0 at the keyframe.
+  const double keyframe_time = record_.keyframe_time(frame.keyframe);
+  const double due = keyframe_time + (time - keyframe_time) / frame.keyframe_score;
+  const double interval = time - history.last_time;
+  const double images = std::ceil((due - time) / interval);
+  if (!(images <= options_.prefetch_images)) return;
+  history.add(time, frame.T_world_camera);
+  thread_->prefetch(predict(history, time + images * interval));
+  rendered_ahead_ = true;
+}
+
+std::vector<double> Odometry::keyframe_times() const {
+  std::vector<double> times;
+  for (int k = 0; k < record_.keyframes(); ++k) times.push_back(record_.keyframe_time(k));
+  return times;
+}
+
+OdometryStatistics Odometry::statistics() const {
+  OdometryStatistics all = counts_;
+  all.stages = stages_;
+  const std::vector<StageTime>& backend = thread_ != nullptr ? backend_stages_ : backend_.stages();
+  all.stages.insert(all.stages.end(), backend.begin(), backend.end());
+  return all;
+}
+
+}  // namespace odosplat

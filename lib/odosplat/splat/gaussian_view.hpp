@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "odosplat/map/map_view.hpp"
+#include "odosplat/splat/raster/device_gaussians.hpp"
+#include "odosplat/splat/raster/rasterizer.hpp"
+#include "odosplat/splat/sigma_model.hpp"
+
+namespace odosplat {
+
+struct GaussianViewOptions {
+  DepthMode depth_mode = DepthMode::surface;
+  float min_alpha = 0.5F;  // pixels that the map covers less have no depth, 0..1
+  SigmaModel sigma;        // the map's own (calibrated_sigma, map_file.hpp), if it knows it
+  RasterizerOptions rasterizer;
+
+  /// Throws InputError naming the field.
+  void check() const;
+};
+
+/// Defaults, with what the map's file says of itself: how sure its depth is, what its Gaussians are sorted by. Throws
+/// what read_sigma_model and read_rasterizer_options (map_file.hpp) throw.
+GaussianViewOptions view_options(const std::string& map_file);
+
+/// "expected", "median", "blended" or "surface"; InputError else.
+DepthMode depth_mode(const std::string& name);
+
+/// A trained map of Gaussians, looked at from any pose.
+/// depth [m] as depth_mode says, 0 where alpha < min_alpha. color 0..1 on black, not divided by alpha.
+/// sigma [m] by the sigma model, 0 where depth is 0; of median and blended depth, which have no mean to spread around,
+/// the share of depth alone. The Gaussians may be none: images of zeros. Frame: world of the Gaussians. Throws
+/// InputError for bad options, Gaussians or camera. Contract of MapView otherwise.
+class GaussianView : public MapView {
+ public:
+  GaussianView(const compute::Context& context, const Gaussians& gaussians, const GaussianViewOptions& options = {});
+
+  ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override;
+  /// Composites those pixels only (Rasterizer::forward_pixels). sigma is without the term of the slope.
+  ViewImages render_pixels(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request,
+                           const std::vector<cv::Point>& pixels) override;
+  std::string name() const override { return "gaussian"; }
+
+ private:
+  RenderRequest raster_request(const ViewRequest& request) const;
+  ColorImage download_color(int height, int width);
+  /// The images of the last forward call.
+  ViewImages take(int height, int width, const ViewRequest& request);
+
+  GaussianViewOptions options_;
+  DeviceGaussians gaussians_;
+  Rasterizer rasterizer_;
+  RenderOutput output_;
+  std::vector<float> planes_;
+};
+
+}  // namespace odosplat

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "odosplat/splat/blend_order.hpp"
+#include "odosplat/splat/gaussians.hpp"
+#include "odosplat/splat/map_places.hpp"
+#include "odosplat/splat/quality/map_quality.hpp"
+#include "odosplat/splat/raster/rasterizer.hpp"
+#include "odosplat/splat/sigma_model.hpp"
+
+namespace odosplat {
+
+/// Reads Gaussians from a .splat file (see splat_file.hpp) if the path ends so, else from a PLY file as 3D Gaussian
+/// Splatting programs write it (Kerbl et al. 2023), any encoding and any scalar types, properties in any order, of
+/// element `vertex`:
+///   x y z [m], f_dc_0..2, f_rest_0..(3K - 4) channel after channel (all of red first), opacity (logit),
+///   scale_0..2 (ln m), rot_0..3 (w x y z)
+/// with K = (degree + 1)^2 coefficients, degree 0..3; float or double. Other properties (nx ny nz) are ignored. Without
+/// scale_2 (2D Gaussian splatting) the Gaussians are discs of 1e-6 m. An infinite opacity is 1 or 0, a scale of minus
+/// infinity 1e-10 m. Gaussians with other values that are not finite, or
+/// that no device can draw (undrawable_value: a rotation of length 0, e^80 m), are left out with one warning
+/// (BrokenRows).
+/// Throws InputError naming the file and the fault: missing file or property, a property of whole numbers (half floats
+/// stored as ushort), a number of f_rest that fits no degree, more than a tenth of the Gaussians broken (naming the
+/// first), no Gaussians, a format that is not read (refuse_foreign_format, refuse_packed_ply), a map too far from the
+/// origin for single precision (require_near_origin), a broken field of our header (check_map_header), and what
+/// read_ply refuses.
+Gaussians read_map(const std::string& path);
+/// The same from memory; `name` stands for the file, its extension included.
+Gaussians parse_map(const std::string& name, const std::string& bytes);
+
+/// Whether the name ends in .splat, in letters of either size.
+bool is_splat_path(const std::string& path);
+
+/// Whether the file holds Gaussians, by its name (.splat) or header (a PLY with colours f_dc_0), not its content. False
+/// if it cannot be read; InputError for a PLY whose header is broken.
+bool is_map_file(const std::string& path);
+
+/// The lines of `notes` that write_map was given, or the comments of another program's PLY, without those that begin
+/// with the name of a setting of ours; none of other formats.
+std::vector<std::string> read_map_notes(const std::string& path);
+
+/// The functions below read the header's comments, and throw InputError naming the file and the field for what
+/// check_map_header refuses.
+
+/// How sure the map's depth is, from the header's comments "sigma_..." that training writes (SigmaModel::to_lines); the
+/// defaults where there are none (maps trained elsewhere, other formats). InputError if they are no numbers.
+SigmaModel read_sigma_model(const std::string& path);
+
+/// What the map's Gaussians are sorted by when they are blended, from the header's comment "blend_order ..." that
+/// training writes (blend_order_line); depth where there is none (maps trained elsewhere, other formats). InputError if
+/// it is neither.
+BlendOrder read_blend_order(const std::string& path);
+
+/// How the map's Gaussians were widened and their opacities compensated in training, from the header's comments
+/// "dilation" and "compensated", and their blend order: what they are to be rendered with. The defaults where there are
+/// none.
+RasterizerOptions read_rasterizer_options(const std::string& path);
+
+/// Where the map's training images were taken, thinned, from the header's comments "training_view ..." (place_lines);
+/// none where there are no such comments. InputError if they are broken.
+std::vector<SE3> read_map_places(const std::string& path);
+
+/// What training said the map is worth, from the header's comments "quality_..." (MapQuality::to_lines); none where
+/// there are none. InputError if they are broken.
+std::optional<MapQuality> read_map_quality(const std::string& path);
+
+/// Writes a .splat file if the path ends so (degree 0 only, quantised; a warning says what is lost, `notes` have no
+/// place), else that PLY layout, binary little endian, floats, with nx ny nz = direction of the shortest axis (unit
+/// length, side arbitrary), so that readers of point clouds find normals. The header's comments name the format's
+/// version, the camera convention, and then the lines of `notes` (the training's settings; without line breaks).
+/// read_map() gives back the same bits of a PLY. Written beside the path and renamed. Throws InputError if the path
+/// cannot be written, or if there are no Gaussians.
+void write_map(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes = {});
+
+}  // namespace odosplat

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/splat/quality/map_quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "odosplat/core/error.hpp"
+
+namespace odosplat {
+
+namespace {
+
+// Chosen, not fitted: a real kitchen (7-Scenes, registered) reaches 27.9 dB.
+constexpr double least_psnr_db = 20.0;
+constexpr double most_depth_share = 0.03;
+// Images that have nothing in common at the points: another place or wrong poses, rather than a camera that is off.
+constexpr double no_relation = 0.7;
+constexpr int least_images = 3;
+constexpr double short_share = 0.5;  // of the preset's iterations
+constexpr double most_odd_share = 0.2;
+constexpr double most_unseen_share = 0.9;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return -1.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+template <typename Member>
+std::vector<double> known(const std::vector<ViewQuality>& views, Member member) {
+  std::vector<double> values;
+  for (const ViewQuality& view : views)
+    if (view.*member >= 0.0) values.push_back(view.*member);
+  return values;
+}
+
+/// 1.4826 times the median distance from the median.
+double robust_deviation(std::vector<double> values, double middle) {
+  for (double& value : values) value = std::abs(value - middle);
+  return 1.4826 * median(std::move(values));
+}
+
+std::string printed(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+}  // namespace
+
+const std::array<const char*, 6> direction_names{"+x", "-x", "+y", "-y", "+z", "-z"};
+
+std::vector<std::string> MapQuality::to_lines() const {
+  std::vector<std::string> lines{
+      "quality_verdict " + verdict,
+      "quality_psnr_db " + printed("%.2f", psnr_db),
+      "quality_depth_error_m " + printed("%.5f", depth_error_m),
+      "quality_depth_error_share " + printed("%.5f", depth_error_share),
+      "quality_images " + std::to_string(images),
+      "quality_odd_images " + std::to_string(odd_images),
+      "quality_color_inconsistency " + printed("%.3f", consistency),
+      "quality_unseen_share " + printed("%.4f", coverage.unseen_share),
+      "quality_images_a_point " + printed("%.0f", coverage.images_a_point),
+  };
+  for (std::size_t k = 0; k < direction_names.size(); ++k)
+    lines.push_back(std::string("quality_direction_") + direction_names[k] + " " +
+                    printed("%.3f", coverage.directions[k]));
+  return lines;
+}
+
+std::optional<MapQuality> MapQuality::from_lines(const std::vector<std::string>& lines) {
+  const std::string prefix = "quality_";
+  MapQuality quality;
+  bool found = false;
+  for (const std::string& line : lines) {
+    if (!line.starts_with(prefix)) continue;
+    const std::size_t blank = std::min(line.find(' '), line.size());
+    const std::string name = line.substr(prefix.size(), blank - prefix.size());
+    const std::string rest = blank < line.size() ? line.substr(blank + 1) : std::string();
+    if (name == "verdict") {
+      quality.verdict = rest;
+      quality.good = rest.starts_with("good");
+      found = true;
+      continue;
+    }
+    std::istringstream in(rest);
+    double value = 0.0;
+    if (!(in >> value) || !std::isfinite(value))
+      throw InputError(prefix + name, "must be a number, is \"" + rest + "\"");
+    if (name == "psnr_db") quality.psnr_db = value;
+    if (name == "depth_error_m") quality.depth_error_m = value;
+    if (name == "depth_error_share") quality.depth_error_share = value;
+    if (name == "images") quality.images = static_cast<int>(std::clamp(value, 0.0, 1e9));
+    if (name == "odd_images") quality.odd_images = static_cast<int>(std::clamp(value, 0.0, 1e9));
+    if (name == "color_inconsistency") quality.consistency = value;
+    if (name == "unseen_share") quality.coverage.unseen_share = value;
+    if (name == "images_a_point") quality.coverage.images_a_point = value;
+    for (std::size_t k = 0; k < direction_names.size(); ++k)
+      if (name == std::string("direction_") + direction_names[k]) quality.coverage.directions[k] = value;
+  }
+  if (!found) return std::nullopt;
+  return quality;
+}
+
+void mark_odd(std::vector<ViewQuality>& views) {
+  constexpr double deviations = 5.0;
+  constexpr double least_fall_db = 4.0;
+  constexpr double least_factor = 3.0;
+  std::vector<double> psnr;
+  for (const ViewQuality& view : views) psnr.push_back(view.psnr_db);
+  const double usual_psnr = median(psnr);
+  const double fall = std::max(least_fall_db, deviations * robust_deviation(psnr, usual_psnr));
+  const std::vector<double> depth = known(views, &ViewQuality::depth_error_share);
+  const double usual_depth = median(depth);
+  const double most_depth =
+      std::max(least_factor * usual_depth, usual_depth + deviations * robust_deviation(depth, usual_depth));
+  for (ViewQuality& view : views)
+    view.odd = !(view.psnr_db >= usual_psnr - fall) || (!depth.empty() && view.depth_error_share > most_depth);
+}
+
+namespace {
+
+struct Judgement {
+  bool inconsistent = false;
+  bool unlike = false;  // low PSNR, or depth off the cloud's
+  bool odd = false;
+  bool unseen = false;
+  std::string faults;
+
+  void add(const std::string& fault) { faults += (faults.empty() ? "" : ", ") + fault; }
+};
+
+std::string likely_cause(const MapQuality& q, const Judgement& j, const std::optional<GeometryDoubt>& doubt,
+                         const TrainingEvidence& t) {
+  std::string causes;
+  const auto add = [&](const std::string& cause) { causes += (causes.empty() ? "" : "; or ") + cause; };
+  if (doubt) {
+    add(doubt->hypothesis.words());
+  } else if (j.inconsistent && q.consistency > no_relation) {
+    add("a cloud of another place than the images, or turned, or poses that are not these images'");
+  } else if (j.inconsistent) {
+    add("a camera file that is not this camera's, depth that is not registered to colour, a cloud that is turned or "
+        "off, or wrong poses");
+  }
+  // A short training does not make images disagree with a cloud.
+  const bool of_training = j.unlike && !j.inconsistent && !j.unseen;
+  const bool cut_short = t.iterations >= 0 && t.iterations < short_share * t.usual_iterations;
+  if (of_training && cut_short) {
+    add("training stopped after " + std::to_string(t.iterations) + " of the preset's " +
+        std::to_string(t.usual_iterations) + " iterations");
+  }
+  if (of_training && t.budget > 0 && t.gaussians >= t.budget && t.budget < t.points) {
+    add("a budget of " + std::to_string(t.budget) + " Gaussians for a cloud of " + std::to_string(t.points) +
+        " points");
+  }
+  if (j.odd) add("wrong poses of those images, or things that moved");
+  if (j.unseen) add("images of another place than most of the cloud");
+  return causes.empty() ? "; cause not known: cloud, poses and camera agree as far as the images tell"
+                        : "; likely cause: " + causes;
+}
+
+std::string count_of(int images) { return std::to_string(images) + (images == 1 ? " image" : " images"); }
+
+}  // namespace
+
+MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage& coverage, double consistency,
+                     const std::optional<GeometryDoubt>& doubt, const TrainingEvidence& training) {
+  MapQuality q;
+  std::vector<double> psnr;
+  for (const ViewQuality& view : views) psnr.push_back(view.psnr_db);
+  q.psnr_db = median(psnr);
+  q.depth_error_m = median(known(views, &ViewQuality::depth_error_m));
+  q.depth_error_share = median(known(views, &ViewQuality::depth_error_share));
+  q.images = static_cast<int>(views.size());
+  q.odd_images =
+      static_cast<int>(std::count_if(views.begin(), views.end(), [](const ViewQuality& v) { return v.odd; }));
+  q.coverage = coverage;
+  q.consistency = consistency;
+
+  const std::string decibels = printed("%.1f dB", q.psnr_db) + " on the " + count_of(q.images) + " it was trained on";
+  Judgement j;
+  j.inconsistent = doubt || consistency > most_unexplained;
+  j.unlike = !(q.psnr_db >= least_psnr_db) || q.depth_error_share > most_depth_share;
+  j.odd = q.odd_images > most_odd_share * q.images;
+  j.unseen = coverage.unseen_share > most_unseen_share;
+  if (!(q.psnr_db >= least_psnr_db)) j.add("only " + decibels);
+  if (j.inconsistent)
+    j.add("the images disagree on the colours of the cloud's points (" + printed("%.0f %%", 100.0 * consistency) +
+          " of the variance)");
+  if (q.depth_error_share > most_depth_share)
+    j.add("its depth is " + printed("%.1f %%", 100.0 * q.depth_error_share) + " off the cloud's");
+  if (j.odd) j.add(std::to_string(q.odd_images) + " of " + count_of(q.images) + " disagree with the rest");
+  if (j.unseen) j.add("no image sees " + printed("%.0f %%", 100.0 * coverage.unseen_share) + " of the cloud");
+  if (!j.faults.empty() && training.iterations != 0) {
+    q.verdict = "doubtful: " + j.faults + likely_cause(q, j, doubt, training);
+    return q;
+  }
+  if (training.iterations == 0) {
+    q.verdict = "not judged: no step of training was done (" + printed("%.1f dB", q.psnr_db) + " on " +
+                count_of(q.images) + ")";
+    if (j.inconsistent) q.verdict += likely_cause(q, j, doubt, {});
+    return q;
+  }
+  if (q.images < least_images) {
+    q.verdict = "not judged: it was trained on " + count_of(q.images) +
+                " only, which a map fits whatever its geometry (" + printed("%.1f dB", q.psnr_db) + ")";
+    return q;
+  }
+  q.good = true;
+  q.verdict = "good: " + decibels;
+  if (q.depth_error_m >= 0.0)
+    q.verdict += ", depth within " + printed("%.1f mm", 1000.0 * q.depth_error_m) + " of the cloud's";
+  if (q.odd_images > 0)
+    q.verdict +=
+        ", but " + std::to_string(q.odd_images) + " of " + std::to_string(q.images) + " images disagree with the rest";
+  if (coverage.unseen_share > 0.1)
+    q.verdict += ", but no image sees " + printed("%.0f %%", 100.0 * coverage.unseen_share) + " of the cloud";
+  return q;
+}
+
+}  // namespace odosplat

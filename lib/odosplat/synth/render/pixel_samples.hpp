@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <vector>
+
+#include "odosplat/camera/camera.hpp"
+#include "odosplat/synth/scene/scene.hpp"
+
+namespace odosplat {
+
+/// Places of n samples about a pixel's centre [px] (Roberts' R2 sequence); their mean is the centre.
+std::vector<Eigen::Vector2d> sample_offsets(int n);
+
+/// Width [m] of what one of n samples stands for at a distance of 1 m along the optical axis: a little more than the
+/// samples' distance, so that what lies between them is seen too.
+float sample_spacing(const Camera& camera, int n);
+
+/// Sum of the radiance of a pixel's samples. hint: of Scene::closest, passed on from pixel to pixel.
+Eigen::Vector3f pixel_radiance(const Scene& scene, const Camera& camera, const Eigen::Matrix3d& R_world_camera,
+                               const Eigen::Vector3f& centre_world, int x, int y,
+                               const std::vector<Eigen::Vector2d>& offsets, float spacing, int& hint);
+
+}  // namespace odosplat

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <memory>
+
+#include "odosplat/map/map_view.hpp"
+#include "odosplat/synth/render/ray_caster.hpp"
+
+namespace odosplat {
+
+struct SceneViewOptions {
+  int samples = 4;       // colour samples a pixel, in 1..64
+  float sigma = 0.001F;  // [m] standard deviation given for every depth (the depth itself is exact), > 0
+
+  /// Throws InputError naming the field.
+  void check() const;
+};
+
+/// The scene itself as a perfect map: exact depth (and colour, as the ray caster makes it) from any pose. For testing
+/// what uses maps. Holds the scene alive.
+class SceneView : public MapView {
+ public:
+  explicit SceneView(std::shared_ptr<const Scene> scene, const SceneViewOptions& options = {});
+
+  ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override;
+  std::string name() const override { return "scene"; }
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  SceneViewOptions options_;
+};
+
+}  // namespace odosplat

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The odosplat authors
+# fingerprint.sh ODOSPLAT OUT SEQ...: SHA-256 of what the program computes on the demo's room and on a short run of each
+# sequence (cloud, map of 300 steps, 100 frames tracked in it). A change that must not alter results is run before and
+# after: the two lists are the same. Times, which differ from run to run, are left out.
+set -euo pipefail
+program=$1 out=$2
+shift 2
+mkdir -p "$out"
+"$program" demo --out "$out/demo" --log warning >/dev/null
+for sequence; do
+  made=$out/$(basename "$sequence")
+  "$program" cloud "$sequence" --every 10 --voxel 0.03 --noise 0.006 --out "$made.cloud.ply" --log warning >/dev/null
+  "$program" train "$sequence" --every 10 --cloud "$made.cloud.ply" --iterations 300 --out "$made.map.ply" \
+    --log warning >/dev/null
+  "$program" track "$sequence" --frames 0:100 --map "$made.map.ply" --start truth --out "$made.track" \
+    --log warning >/dev/null
+done
+cd "$out"
+find . -name status.csv | while read -r file; do
+  awk -F, -v OFS=, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i ~ /ms$|milliseconds/) drop[i] = 1 }
+    { for (i in drop) $i = "" } 1' "$file" >"$file.untimed"
+done
+find . \( -name '*.ply' -o -name 'trajectory*.txt' -o -name '*.untimed' -o -name '*.png' \) \
+  ! -path './demo/sequence/*' | LC_ALL=C sort | xargs sha256sum

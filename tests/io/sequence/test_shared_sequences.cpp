@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+// Public sequences, where they are at hand: facts from their description, and the geometry by reprojection.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "odosplat/io/sequence/sequence.hpp"
+#include "odosplat/io/trajectory/trajectory_file.hpp"
+#include "tests/io/temp_folder.hpp"
+
+namespace odosplat {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TempFolder;
+
+// Median |difference| in mm of depth carried from frame i to frame j by the poses, and the depth measured there.
+double reprojection_mm(const Sequence& s, std::size_t i, std::size_t j) {
+  const DepthImage from = s.depth(i);
+  const DepthImage to = s.depth(j);
+  const SE3 T_j_i = s.T_world_depth(j)->inverse() * *s.T_world_depth(i);
+  std::vector<double> errors;
+  for (int y = 0; y < from.rows; y += 2) {
+    for (int x = 0; x < from.cols; x += 2) {
+      if (from(y, x) == 0.0F) continue;
+      const Eigen::Vector3d p = T_j_i * Eigen::Vector3d(from(y, x) * s.camera().ray(x, y));
+      if (p.z() <= 0.0) continue;
+      const Eigen::Vector2d pixel = s.camera().project(p);
+      const auto u = static_cast<int>(std::lround(pixel.x()));
+      const auto v = static_cast<int>(std::lround(pixel.y()));
+      if (u < 0 || v < 0 || u >= to.cols || v >= to.rows || to(v, u) == 0.0F) continue;
+      errors.push_back(1000.0 * std::abs(static_cast<double>(to(v, u)) - p.z()));
+    }
+  }
+  if (errors.size() < 1000) return 1e9;
+  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2), errors.end());
+  return errors[errors.size() / 2];
+}
+
+struct Facts {
+  const char* path;
+  const char* layout;
+  std::size_t frames;
+  std::size_t truth;
+  Camera camera;
+  int fy_sign;
+  double depth_scale;
+  std::size_t i;
+  std::size_t j;
+  double max_error_mm;  // of depth reprojected from i to j; the sets' description says what is usual
+};
+
+void PrintTo(const Facts& facts, std::ostream* out) { *out << facts.path; }
+
+class SharedSequence : public testing::TestWithParam<Facts> {};
+
+TEST_P(SharedSequence, IsReadAsDescribed) {
+  const Facts& facts = GetParam();
+  SHARED_DATA_OR_SKIP(path, facts.path);
+  const Sequence s = Sequence::open(path);
+  EXPECT_EQ(s.layout(), facts.layout);
+  EXPECT_EQ(s.size(), facts.frames);
+  EXPECT_EQ(s.truth().size(), facts.truth);
+  EXPECT_EQ(s.camera(), facts.camera);
+  EXPECT_EQ(s.fy_sign(), facts.fy_sign);
+  EXPECT_EQ(s.depth_scale(), facts.depth_scale);
+  EXPECT_NEAR(s.fps(), 30.0, 3.0);
+  for (const std::size_t k : {std::size_t{0}, s.size() - 1}) {
+    EXPECT_EQ(s.color(k).size(), cv::Size(facts.camera.width, facts.camera.height));
+    EXPECT_TRUE(s.has_depth(k));
+  }
+  EXPECT_LT(reprojection_mm(s, facts.i, facts.j), facts.max_error_mm);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SharedSequence,
+    testing::Values(
+        Facts{"icl_office_kt3", "tum", 1100, 1100, {320, 240, 240.6, 240, 159.5, 119.5}, 1, 1000, 300, 320, 4.0},
+        Facts{"icl_office_traj3_frei_png", "icl", 16, 1100, {640, 480, 481.2, 480, 319.5, 239.5}, -1, 5000, 1, 15, 2.0},
+        Facts{"aug_icl_livingroom1", "tum", 211, 211, {640, 480, 525, 525, 319.5, 239.5}, 1, 1000, 100, 120, 1.5},
+        Facts{
+            "aug_icl_livingroom1_redwood", "redwood", 30, 30, {640, 480, 525, 525, 319.5, 239.5}, 1, 1000, 0, 20, 1.5},
+        Facts{"7scenes_redkitchen", "tum", 160, 240, {320, 240, 292.5, 292.5, 159.75, 119.75}, 1, 1000, 40, 50, 12.0},
+        Facts{
+            "7scenes_redkitchen_official", "sevenscenes", 12, 12, {640, 480, 585, 585, 320, 240}, 1, 1000, 0, 10, 12.0},
+        Facts{"tum_fr1_rpy_short",
+              "tum",
+              8,
+              2742,
+              {640, 480, 517.306408, 516.469215, 318.643040, 255.313989},
+              1,
+              5000,
+              2,
+              3,
+              12.0},
+        Facts{"replica_office0_short", "replica", 4, 2000, {1200, 680, 600, 600, 599.5, 339.5}, 1, 6553.5, 0, 3, 1.5}));
+
+TEST(SharedIcl, ReflectedPosesAreThoseOfTheReducedSet) {
+  SHARED_DATA_OR_SKIP(archive, "icl_office_traj3_frei_png");
+  SHARED_DATA_OR_SKIP(reduced, "icl_office_kt3");
+  const Sequence a = Sequence::open(archive);
+  const Sequence b = Sequence::open(reduced);
+  EXPECT_FALSE(a.T_world_camera(0));
+  for (std::size_t k = 1; k < 16; ++k) {
+    ASSERT_TRUE(a.T_world_camera(k));
+    const SE3 difference = a.T_world_camera(k)->inverse() * *b.T_world_camera(k - 1);
+    EXPECT_LT(difference.log().norm(), 1e-5) << k;
+    EXPECT_EQ(a.time_text(k), b.time_text(k - 1));
+  }
+  EXPECT_EQ(a.T_world_camera(1)->translation(), Eigen::Vector3d(0, 0, -2.5));
+}
+
+// A camera file that claims a negative fy for poses that belong to a positive one.
+TEST(SharedKt3, AWrongSignOfFyShowsInReprojectionUnlessPosesAreTakenAsStored) {
+  SHARED_DATA_OR_SKIP(path, "icl_office_kt3");
+  const TempFolder temp;
+  SequenceOptions options;
+  options.camera_file =
+      temp.put("c.yaml", "width: 320\nheight: 240\nfx: 240.6\nfy: -240\ncx: 159.5\ncy: 119.5\ndepth_scale: 1000\n");
+  const Sequence wrong = Sequence::open(path, options);
+  EXPECT_EQ(wrong.fy_sign(), -1);
+  EXPECT_GT(reprojection_mm(wrong, 300, 320), 10.0);
+  options.as_stored = true;
+  const Sequence stored = Sequence::open(path, options);
+  EXPECT_EQ(stored.fy_sign(), -1);
+  EXPECT_LT(reprojection_mm(stored, 300, 320), 4.0);
+}
+
+TEST(SharedRedwood, AgreesWithTheTumCopy) {
+  SHARED_DATA_OR_SKIP(redwood, "aug_icl_livingroom1_redwood");
+  SHARED_DATA_OR_SKIP(tum, "aug_icl_livingroom1");
+  const Sequence a = Sequence::open(redwood);
+  const Sequence b = Sequence::open(tum);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    EXPECT_LT((a.T_world_camera(k)->inverse() * *b.T_world_camera(k)).log().norm(), 1e-6) << k;
+  }
+  EXPECT_EQ(cv::norm(a.color(17), b.color(17), cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(a.depth(17), b.depth(17), cv::NORM_INF), 0.0);
+}
+
+TEST(SharedSevenScenes, AgreesWithTheReducedCopy) {
+  SHARED_DATA_OR_SKIP(official, "7scenes_redkitchen_official/seq-01");
+  SHARED_DATA_OR_SKIP(reduced, "7scenes_redkitchen");
+  const Sequence a = Sequence::open(official);
+  const Sequence b = Sequence::open(reduced);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    EXPECT_LT((a.T_world_camera(k)->inverse() * *b.T_world_camera(k)).log().norm(), 1e-5) << k;
+    const DepthImage depth = a.depth(k);
+    EXPECT_LT(*std::max_element(depth.begin(), depth.end()), 20.0F);  // 65535 is none
+  }
+}
+
+TEST(SharedTum, DepthIsTheNearestInTimeAndDistortionIsGone) {
+  SHARED_DATA_OR_SKIP(path, "tum_fr1_rpy_short");
+  const Sequence s = Sequence::open(path);
+  EXPECT_EQ(s.time_text(0), "1305031249.529692");
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    ASSERT_TRUE(s.has_depth(i)) << i;
+    ASSERT_TRUE(s.T_world_camera(i)) << i;
+    // Motion capture every 10 ms and a fast turn: between two poses lies less than 3 degrees.
+    double nearest = 1e9;
+    for (const StampedPose& pose : s.truth()) {
+      if (std::abs(pose.time - s.time(i)) > 0.01) continue;
+      nearest = std::min(nearest, (pose.T_world_camera.inverse() * *s.T_world_camera(i)).log().norm());
+    }
+    EXPECT_LT(nearest, 0.05) << i;
+  }
+  EXPECT_EQ(s.truth().front().time_text, "1305031225.9334");
+  // The lens of fr1 has bent the image outwards at the border: its corner is not seen.
+  TempFolder temp;
+  fs::copy(path, temp / "raw", fs::copy_options::recursive);
+  std::ifstream in(path + "/camera.yaml");
+  std::string yaml;
+  for (std::string line; std::getline(in, line);) yaml += line.starts_with("distortion") ? "" : line + "\n";
+  temp.put("raw/camera.yaml", yaml);
+  const Sequence raw = Sequence::open(temp / "raw");
+  EXPECT_GT(cv::norm(raw.color(0), s.color(0), cv::NORM_L1), 1000.0);
+}
+
+TEST(SharedKt3, FirstPoseAloneAndNoDepthFolder) {
+  const TempFolder temp;
+  SHARED_DATA_OR_SKIP(path, "icl_office_kt3");
+  fs::create_directories(temp / "kt3");
+  for (const char* name : {"rgb.txt", "depth.txt", "camera.yaml"}) fs::copy(path + "/" + name, temp / "kt3");
+  fs::create_directory_symlink(fs::canonical(path + "/rgb"), temp / "kt3/rgb");
+  temp.put("kt3/groundtruth.txt", "0.033333 0 0 -2.5 0 0 0 1\n");
+  const Sequence s = Sequence::open(temp / "kt3");
+  EXPECT_EQ(s.size(), 1100U);
+  EXPECT_EQ(s.truth().size(), 1U);
+  EXPECT_EQ(s.T_world_camera(0)->translation(), Eigen::Vector3d(0, 0, -2.5));
+  EXPECT_FALSE(s.T_world_camera(1));
+  EXPECT_FALSE(s.has_depth(0));
+}
+
+}  // namespace
+}  // namespace odosplat

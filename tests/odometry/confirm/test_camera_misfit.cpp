@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "odosplat/odometry/confirm/camera_misfit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "odosplat/core/error.hpp"
+#include "tests/odometry/box_room.hpp"
+
+namespace odosplat {
+namespace {
+
+class CameraMisfitTest : public testing::Test {
+ protected:
+  /// 320 x 240: what a wrong camera does is a matter of pixels.
+  CameraMisfitTest() { camera_ = camera_.resized(320, 240); }
+
+  ViewPatches patches(const SE3& T_world_view, const Camera& camera) {
+    return ViewPatches(camera, {T_world_view, room_.render(camera, T_world_view, {true, false})}, 0.0, {});
+  }
+  /// Images of the right camera, seen by one that is said to be `told`, at poses that are right.
+  void watch(CameraMisfit& misfit, const Camera& told, int keyframes = 6) {
+    for (int k = 0; k < keyframes; ++k) {
+      const SE3 T_world_camera = test::room_path(30 * k);
+      const FramePyramid image = build_frame_pyramid(told, room_.gray(camera_, T_world_camera), 0.0);
+      effect_ = misfit.add(patches(T_world_camera, told), image, T_world_camera);
+    }
+  }
+
+  test::BoxRoom room_;
+  Camera camera_ = test::small_camera();
+  MisfitEffect effect_;
+};
+
+TEST_F(CameraMisfitTest, SquaresTellAShiftOfThePose) {
+  const SE3 T_world_camera = test::room_path(20);
+  const FramePyramid image = build_frame_pyramid(camera_, room_.gray(camera_, T_world_camera), 0.0);
+  const ViewPatches view = patches(T_world_camera, camera_);
+  for (int axis = 0; axis < 6; ++axis) {
+    Vector6d twist = Vector6d::Zero();
+    twist[axis] = axis < 3 ? 0.002 : 0.001;
+    const SE3 T_camera_world = SE3::exp(twist) * T_world_camera.inverse();
+    const MisfitSystem system = view.misfit(image, T_camera_world, {}, 0, 0.3);
+    ASSERT_GT(system.patches, 100);
+    const Vector6d found = system.information.topLeftCorner<6, 6>().ldlt().solve(system.vector.head<6>().eval());
+    // One step from squares with one motion each: it goes the right way, most of it.
+    EXPECT_LT((found + twist).norm(), 0.5 * twist.norm()) << axis;
+  }
+}
+
+TEST_F(CameraMisfitTest, SquaresTellAShiftOfTheCamera) {
+  const SE3 T_world_camera = test::room_path(20);
+  const FramePyramid image = build_frame_pyramid(camera_, room_.gray(camera_, T_world_camera), 0.0);
+  const ViewPatches view = patches(T_world_camera, camera_);
+  for (int k = 0; k < CameraCorrection::size; ++k) {
+    Eigen::Vector4d wrong = Eigen::Vector4d::Zero();
+    wrong[k] = k == 3 ? 0.005 : 0.002;
+    const MisfitSystem system = view.misfit(image, T_world_camera.inverse(), CameraCorrection::from(wrong), 0, 0.3);
+    const Eigen::Vector4d found =
+        system.information.bottomRightCorner<4, 4>().ldlt().solve(system.vector.tail<4>().eval());
+    EXPECT_LT((found + wrong).norm(), 0.3 * wrong.norm()) << k;
+  }
+}
+
+TEST_F(CameraMisfitTest, ARightCameraIsLeftAlone) {
+  CameraMisfit misfit({});
+  watch(misfit, camera_);
+  EXPECT_LT(misfit.correction().vector().norm(), 0.003);
+  EXPECT_EQ(effect_.meters, 0.0);
+  EXPECT_EQ(misfit.likely_cause(camera_), "");
+}
+
+TEST_F(CameraMisfitTest, AWrongFocalLengthIsNamed) {
+  for (const double factor : {0.95, 1.05}) {
+    Camera told = camera_;
+    told.fx *= factor;
+    told.fy *= factor;
+    CameraMisfit misfit({});
+    watch(misfit, told);
+    EXPECT_NEAR(misfit.correction().focal, 1.0 / factor - 1.0, 0.01) << factor;
+    EXPECT_THAT(misfit.likely_cause(told),
+                testing::ContainsRegex(factor < 1.0 ? "focal length were .* longer" : "focal length were .* shorter"));
+    EXPECT_GT(effect_.covariance.diagonal().head<3>().sum(), 1e-5);
+  }
+}
+
+TEST_F(CameraMisfitTest, AWrongPrincipalPointIsNamed) {
+  Camera told = camera_;
+  told.cx += 8.0;
+  CameraMisfit misfit({});
+  watch(misfit, told);
+  EXPECT_NEAR(misfit.correction().center_u * told.fx, -8.0, 1.5);
+  EXPECT_THAT(misfit.likely_cause(told), testing::HasSubstr("further left"));
+}
+
+TEST_F(CameraMisfitTest, OptionsAreChecked) {
+  CameraMisfitOptions options;
+  options.iterations = 0;
+  EXPECT_THROW(CameraMisfit{options}, InputError);
+}
+
+}  // namespace
+}  // namespace odosplat

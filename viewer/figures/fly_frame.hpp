@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "odosplat/core/image.hpp"
+#include "viewer/figures/depth_figure.hpp"
+
+namespace odosplat {
+
+/// A frame of a flight through a map: colour and depth side by side, below them words and the depth's scale.
+struct FlyFrame {
+  ColorImage color;  // 0..1; may be empty: depth alone
+  DepthImage depth;  // [m], 0 or not finite = none
+  ValueRange range;  // [m] ends of the depth scale: one for all frames of a film
+  std::string words;
+};
+
+/// Draws it at the images' own size: R, G, B, width and height even, as video codecs want them; all frames of one size
+/// of image are of one size. Same input, same bytes. Needs no OpenGL. Any thread. Throws InputError for an empty depth
+/// image and for images of different sizes.
+cv::Mat3b draw_fly_frame(const FlyFrame& frame);
+
+}  // namespace odosplat
