@@ -22,10 +22,10 @@ struct ConvertFlags {
 };
 
 void convert_map(const ConvertFlags& flags) {
-  const Gaussians gaussians = read_map(flags.in);
-  log_info("writing " + std::to_string(gaussians.size()) + " Gaussians");
-  write_map(flags.out, gaussians, read_map_notes(flags.in));
-  print("%s: %zu Gaussians\n", flags.out.c_str(), gaussians.size());
+  const Map map = read_map(flags.in);
+  log_info("writing " + std::to_string(map.gaussians.size()) + " Gaussians");
+  write_map(flags.out, map);
+  print("%s: %zu Gaussians\n", flags.out.c_str(), map.gaussians.size());
 }
 
 void convert_cloud(const ConvertFlags& flags) {

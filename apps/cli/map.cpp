@@ -40,7 +40,8 @@ struct MapInfo {
 };
 
 MapInfo read_info(const std::string& path) {
-  const Gaussians gaussians = read_map(path);
+  const Map map = read_map(path);
+  const Gaussians& gaussians = map.gaussians;
   MapInfo info;
   info.gaussians = gaussians.size();
   info.sh_degree = gaussians.sh_degree;
@@ -51,14 +52,13 @@ MapInfo read_info(const std::string& path) {
     info.least = info.least.cwiseMin(p);
     info.most = info.most.cwiseMax(p);
   }
-  info.order = read_blend_order(path);
-  info.places = read_map_places(path).size();
-  info.quality = read_map_quality(path);
-  for (const std::string& note : read_map_notes(path)) {
-    if (note.starts_with("sigma_")) {
-      info.sigma = read_sigma_model(path);
-    } else if (!note.starts_with("training_view ") && !note.starts_with("quality_") &&
-               !note.starts_with("blend_order ")) {
+  info.order = map.header.rasterizer.order;
+  info.sigma = map.header.sigma;
+  info.places = map.header.places.size();
+  info.quality = map.header.quality;
+  for (const std::string& note : map.header.notes) {
+    if (!note.starts_with("sigma_") && !note.starts_with("training_view ") && !note.starts_with("quality_") &&
+        !note.starts_with("blend_order ")) {
       info.settings.push_back(note);
     }
   }

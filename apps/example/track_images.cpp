@@ -40,7 +40,7 @@ int run(const std::string& source, char** words) {
   const odosplat::SE3 T_world_camera_start(Eigen::Quaterniond(v[6], v[3], v[4], v[5]), {v[0], v[1], v[2]});
 
   const odosplat::compute::Context device = odosplat::compute::Context::open();
-  odosplat::GaussianView map(device, odosplat::read_map(words[1]), odosplat::view_options(words[1]));
+  odosplat::GaussianView map(device, odosplat::read_map(words[1]));
   odosplat::OdometryOptions options;
   options.background = live;  // a camera does not wait; recorded images do, and give the same poses every time
   odosplat::Odometry odometry(camera.camera, map, options, T_world_camera_start);

@@ -11,6 +11,7 @@
 #include "apps/input/cloud_files.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/core/upper_median.hpp"
 #include "odosplat/io/cloud/cloud_file.hpp"
 #include "odosplat/map/interpolation_view.hpp"
 #include "odosplat/map/surfel_view.hpp"
@@ -35,9 +36,7 @@ MapHalf half_of(const std::vector<Eigen::Vector3f>& points, const std::string& s
   std::vector<float> along;
   along.reserve(points.size());
   for (const Eigen::Vector3f& p : points) along.push_back(half.sign * p[half.axis]);
-  const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
-  std::nth_element(along.begin(), middle, along.end());
-  half.border = middle == along.end() ? 0.0F : *middle;
+  half.border = upper_median(std::move(along));
   return half;
 }
 
@@ -88,9 +87,6 @@ PointCloud without_half(const PointCloud& cloud, const std::string& side) {
   return kept;
 }
 
-// Basis function of degree 0 of spherical harmonics.
-constexpr float sh_constant = 0.28209479F;
-
 }  // namespace
 
 void add_map_flags(CLI::App* command, MapFlags& flags) {
@@ -123,13 +119,13 @@ OpenedView open_view(const Common& common, const std::string& method, const MapF
   OpenedView opened;
   switch (preset.view) {
     case ViewKind::gaussians: {
-      const Gaussians gaussians = without_half(read_map(needed(method, "--map", flags.map)), flags.without_half);
-      const std::optional<MapQuality> quality = read_map_quality(flags.map);
+      Map map = read_map(needed(method, "--map", flags.map));
+      map.gaussians = without_half(std::move(map.gaussians), flags.without_half);
+      const std::optional<MapQuality>& quality = map.header.quality;
       if (quality && !quality->good) log_warning(flags.map + ": its header says: " + quality->verdict);
-      GaussianViewOptions options = view_options(flags.map);
-      options.depth_mode = flags.depth.empty() ? preset.depth_mode : depth_mode(flags.depth);
       opened.device = open_device(common);
-      opened.view = std::make_unique<GaussianView>(*opened.device, gaussians, options);
+      opened.view = std::make_unique<GaussianView>(*opened.device, map,
+                                                   flags.depth.empty() ? preset.depth_mode : depth_mode(flags.depth));
       break;
     }
     case ViewKind::interpolation:
@@ -163,14 +159,15 @@ void check_flags_of_method(const std::string& method, const MapFlags& flags, con
   }
   if (!flags.cloud.empty()) log_warning("--cloud " + not_used);
   if (method != "paper" || flags.map.empty()) return;
-  const std::vector<std::string> notes = read_map_notes(flags.map);
+  const std::vector<std::string> notes = read_map_header(flags.map).notes;
   if (std::find(notes.begin(), notes.end(), "position_length gaussian_size") != notes.end()) {
     log_warning(flags.map + ": was trained with the default preset; the paper's recipe is train --preset paper");
   }
 }
 
 MapHalf map_half(const MapFlags& flags, const std::string& side) {
-  return half_of(flags.map.empty() ? read_point_cloud(flags.cloud).points : positions(read_map(flags.map)), side);
+  return half_of(flags.map.empty() ? read_point_cloud(flags.cloud).points : positions(read_map(flags.map).gaussians),
+                 side);
 }
 
 MapPoints read_map_points(const MapFlags& flags) {
@@ -179,7 +176,7 @@ MapPoints read_map_points(const MapFlags& flags) {
     if (!flags.cloud.empty()) points.cloud = read_point_cloud(flags.cloud);
     return points;
   }
-  const Gaussians g = read_map(flags.map);
+  const Gaussians g = read_map(flags.map).gaussians;
   const auto stride = static_cast<std::size_t>(3 * g.coefficients());
   for (std::size_t i = 0; i < g.size(); ++i) {
     // What is almost transparent is not part of the picture.

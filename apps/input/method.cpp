@@ -41,9 +41,7 @@ OdometryOptions odometry_options(const MethodPreset& preset, std::optional<bool>
   options.confirmation.enabled = preset.anchor;
   options.keyframe.window_points.depth_use = preset.depth_use;
   // Without an anchor, what a keyframe leaves behind holds the window to its own drift wherever depth moves with its
-  // keyframe (icl_office_kt3, ATE in mm, with / without: fixed depth of a sensor 43 / 14, of the paper's map 2074 /
-  // 111; free 2638 / 57). With planes of the world it would pay (ours 11 / 18, surfels 8 / 18); one rule for all keeps
-  // the rows comparable.
+  // keyframe (docs/rules.md). With planes of the world it would pay; one rule for all keeps the rows comparable.
   options.marginalization.enabled = options.keyframe.anchor.enabled;
   return options;
 }

@@ -12,6 +12,7 @@
 #include "odosplat/core/near_origin.hpp"
 #include "odosplat/io/trajectory/trajectory_file.hpp"
 #include "odosplat/splat/map_file.hpp"
+#include "odosplat/splat/map_places.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -78,7 +79,7 @@ std::vector<SE3> places_of(const MapFlags& flags, const std::string& file) {
     return thinned_places(poses);
   }
   if (!flags.map.empty()) {
-    std::vector<SE3> places = read_map_places(flags.map);
+    std::vector<SE3> places = read_map_header(flags.map).places;
     if (!places.empty()) return places;
   }
   std::vector<SE3> places = sampled_places(read_map_points(flags).cloud.points);

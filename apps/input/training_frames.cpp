@@ -40,7 +40,7 @@ struct Header {
 Header read_header(const std::string& map, const Sequence& sequence) {
   Header header;
   if (map.empty()) return header;
-  for (const std::string& line : read_map_notes(map)) {
+  for (const std::string& line : read_map_header(map).notes) {
     std::istringstream in(line);
     std::string word;
     if (!(in >> word) || word != line_begins) continue;

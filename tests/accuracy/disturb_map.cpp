@@ -106,7 +106,8 @@ apps::MapFlags edited_map(const apps::MapFlags& flags, const MapEdit& edit, cons
     write_point_cloud(edited.cloud, cloud);
   }
   if (!flags.map.empty()) {
-    Gaussians gaussians = read_map(flags.map);
+    Map map = read_map(flags.map);
+    Gaussians& gaussians = map.gaussians;
     const std::vector<std::uint8_t> gone = apply(edit, gaussians.positions, share);
     keep_unmarked(gaussians.positions, 3, gone);
     keep_unmarked(gaussians.log_scales, 3, gone);
@@ -114,7 +115,7 @@ apps::MapFlags edited_map(const apps::MapFlags& flags, const MapEdit& edit, cons
     keep_unmarked(gaussians.sh, 3 * static_cast<std::size_t>(gaussians.coefficients()), gone);
     keep_unmarked(gaussians.opacity_logits, 1, gone);
     edited.map = folder + "/map.ply";
-    write_map(edited.map, gaussians, read_map_notes(flags.map));
+    write_map(edited.map, map);
   }
   return edited;
 }

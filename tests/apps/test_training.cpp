@@ -9,9 +9,13 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/train/train_views.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/io/cloud/cloud_file.hpp"
 #include "odosplat/io/trajectory/trajectory_file.hpp"
+#include "odosplat/splat/gaussian_view.hpp"
+#include "odosplat/splat/map_file.hpp"
+#include "odosplat/splat/map_training.hpp"
 #include "tests/apps/run_program.hpp"
 #include "tests/apps/tiny_world.hpp"
 
@@ -58,6 +62,29 @@ TEST_F(Training, KeepsTheCheckpointOfAnEarlierRun) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(read_text(map + ".checkpoint.old"), "of an earlier run");
   EXPECT_FALSE(fs::exists(map + ".checkpoint"));
+}
+
+// What a program gets from the library is what the command writes.
+TEST_F(Training, TheLibraryMakesTheSameMap) {
+  const std::string map = scratch_ / "map.ply";
+  ASSERT_EQ(run_odosplat(words(map)).status, 0);
+  apps::SequenceViews views({sequence_}, {}, 3, {});
+  TrainerOptions options = TrainerOptions::preset("default", views.count());
+  options.iterations = 120;
+  const TrainedMap made = odosplat::train_map(compute::Context::open(), read_point_cloud(cloud_), views,
+                                              InitializeOptions::preset("default"), options);
+  const Map written = read_map(map);
+  EXPECT_EQ(made.map.gaussians.positions, written.gaussians.positions);
+  EXPECT_EQ(made.map.gaussians.sh, written.gaussians.sh);
+  EXPECT_EQ(made.map.header.places.size(), written.header.places.size());
+  ASSERT_TRUE(made.map.header.sigma && written.header.sigma);
+  EXPECT_EQ(made.map.header.sigma->spread, written.header.sigma->spread);
+  EXPECT_EQ(made.map.header.rasterizer.order, written.header.rasterizer.order);
+  EXPECT_EQ(made.training.iterations, 120);
+  // And it can be looked at as it comes, and written.
+  write_map(scratch_ / "again.ply", made.map);
+  EXPECT_EQ(read_map(scratch_ / "again.ply").gaussians.opacity_logits, made.map.gaussians.opacity_logits);
+  EXPECT_EQ(GaussianView(compute::Context::open(), made.map).name(), "gaussian");
 }
 
 TEST_F(Training, KilledRunsEndWithTheSameBits) {

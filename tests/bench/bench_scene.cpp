@@ -58,7 +58,7 @@ BenchScene random_scene(std::size_t n, int width, int height) {
 std::optional<BenchScene> map_scene(int width, int height) {
   const char* path = std::getenv("ODOSPLAT_BENCH_MAP");
   if (path == nullptr) return std::nullopt;
-  return BenchScene{read_map(path), bench_camera(width, height), pose_from_environment()};
+  return BenchScene{read_map(path).gaussians, bench_camera(width, height), pose_from_environment()};
 }
 
 }  // namespace odosplat

@@ -22,7 +22,7 @@ void demand(bool holds, const char* what) {
 void read_or_refuse(const char* name, const std::string& bytes) {
   Gaussians g;
   try {
-    g = parse_map(name, bytes);
+    g = parse_map(name, bytes).gaussians;
   } catch (const InputError& e) {
     demand(std::string(e.what()).find('\n') == std::string::npos, "an error has one line");
     return;

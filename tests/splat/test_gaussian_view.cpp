@@ -46,13 +46,13 @@ TEST(GaussianView, KeepsWhatEveryMapViewMust) {
     check_map_view(view, scene.camera, scene.T_world_camera(3));
     check_map_view_sizes(view, scene.camera, scene.T_world_camera(3));
   }
-  GaussianView empty(context, Gaussians{});
+  GaussianView empty(context, Gaussians{}, GaussianViewOptions());
   check_empty_map_view(empty, scene.camera, SE3());
 }
 
 TEST(GaussianView, SomePixelsHaveTheSigmaOfTheWhole) {
   const CornerScene scene;
-  GaussianView view(compute::Context::open(), corner());
+  GaussianView view(compute::Context::open(), corner(), GaussianViewOptions());
   std::vector<cv::Point> pixels;
   for (int x = 0; x < scene.camera.width; x += 3) pixels.emplace_back(x, scene.camera.height / 2);
   const ViewImages whole = view.render(scene.camera, scene.T_world_camera(2), {});
@@ -107,7 +107,7 @@ TEST(GaussianView, ThinlyCoveredPixelsHaveNoDepth) {
 
 TEST(GaussianView, EmptyMapGivesZeros) {
   const CornerScene scene;
-  GaussianView view(compute::Context::open(), Gaussians{});
+  GaussianView view(compute::Context::open(), Gaussians{}, GaussianViewOptions());
   const ViewImages images = view.render(scene.camera, SE3(), {true, true});
   ASSERT_EQ(images.depth.cols, scene.camera.width);
   ASSERT_EQ(images.depth.rows, scene.camera.height);
@@ -119,7 +119,7 @@ TEST(GaussianView, EmptyMapGivesZeros) {
 
 TEST(GaussianView, SameCallSameBits) {
   const CornerScene scene;
-  GaussianView view(compute::Context::open(), corner());
+  GaussianView view(compute::Context::open(), corner(), GaussianViewOptions());
   const ViewImages a = view.render(scene.camera, scene.T_world_camera(1), {true, true});
   view.render(scene.camera.level(1), scene.T_world_camera(4), {});  // another size in between
   const ViewImages b = view.render(scene.camera, scene.T_world_camera(1), {true, true});
@@ -132,8 +132,8 @@ TEST(GaussianView, ColourStaysInRange) {
   const CornerScene scene;
   Gaussians bright = corner();
   for (float& s : bright.sh) s *= 20.0F;
-  const ViewImages images =
-      GaussianView(compute::Context::open(), bright).render(scene.camera, scene.T_world_camera(0), {true, false});
+  const ViewImages images = GaussianView(compute::Context::open(), bright, GaussianViewOptions())
+                                .render(scene.camera, scene.T_world_camera(0), {true, false});
   float largest = 0.0F;
   for (const cv::Vec3f& c : images.color)
     for (int k = 0; k < 3; ++k) {

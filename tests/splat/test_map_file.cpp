@@ -17,8 +17,10 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
+#include "odosplat/splat/blend_order.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
 #include "odosplat/splat/map_file.hpp"
+#include "odosplat/splat/map_places.hpp"
 #include "odosplat/splat/train/trainer_options.hpp"
 
 namespace odosplat {
@@ -66,7 +68,7 @@ TEST_F(MapFile, ReadsBackTheSameBitsForEveryDegree) {
   for (int degree = 0; degree <= 3; ++degree) {
     const Gaussians g = random_gaussians(17, degree);
     write_map(path("map.ply"), g);
-    const Gaussians back = read_map(path("map.ply"));
+    const Gaussians back = read_map(path("map.ply")).gaussians;
     EXPECT_EQ(back.sh_degree, degree);
     EXPECT_EQ(back.positions, g.positions);
     EXPECT_EQ(back.log_scales, g.log_scales);
@@ -82,23 +84,23 @@ TEST_F(MapFile, RemembersWhereItWasSeenFrom) {
   std::vector<std::string> notes = place_lines(views);
   notes.emplace_back("seed 42");
   write_map(path("map.ply"), random_gaussians(3, 0), notes);
-  const std::vector<SE3> back = read_map_places(path("map.ply"));
+  const std::vector<SE3> back = read_map_header(path("map.ply")).places;
   ASSERT_EQ(back.size(), views.size());
   for (std::size_t k = 0; k < views.size(); ++k) {
     EXPECT_LT((back[k].inverse() * views[k]).translation().norm(), 1e-4);
     EXPECT_LT((back[k].inverse() * views[k]).angle(), 1e-5);
   }
-  EXPECT_EQ(read_map(path("map.ply")).size(), 3U);
+  EXPECT_EQ(read_map(path("map.ply")).gaussians.size(), 3U);
   write_map(path("plain.ply"), random_gaussians(3, 0));
-  EXPECT_TRUE(read_map_places(path("plain.ply")).empty());
-  EXPECT_TRUE(read_map_places(path("missing.ply")).empty());
+  EXPECT_TRUE(read_map_header(path("plain.ply")).places.empty());
+  EXPECT_THROW(read_map_header(path("missing.ply")), InputError);
 }
 
 TEST_F(MapFile, BrokenViewsAreNamed) {
   for (const char* note : {"training_view 1 2 3", "training_view 0 0 nan 0 0 0 1", "training_view 0 0 0 0 0 0 0"}) {
     write_map(path("map.ply"), random_gaussians(1, 0), {note});
     try {
-      read_map_places(path("map.ply"));
+      read_map_header(path("map.ply"));
       ADD_FAILURE() << note;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr("map.ply: header: training_view")) << note;
@@ -109,15 +111,14 @@ TEST_F(MapFile, BrokenViewsAreNamed) {
 TEST_F(MapFile, RemembersItsBlendOrder) {
   for (const BlendOrder order : {BlendOrder::depth, BlendOrder::distance}) {
     write_map(path("map.ply"), random_gaussians(3, 0), {"seed 42", blend_order_line(order)});
-    EXPECT_EQ(read_blend_order(path("map.ply")), order);
-    EXPECT_EQ(view_options(path("map.ply")).rasterizer.order, order);
-    EXPECT_EQ(read_map_notes(path("map.ply")), (std::vector<std::string>{"seed 42", blend_order_line(order)}));
+    EXPECT_EQ(read_map_header(path("map.ply")).rasterizer.order, order);
+    EXPECT_EQ(read_map_header(path("map.ply")).notes, (std::vector<std::string>{"seed 42", blend_order_line(order)}));
   }
   write_map(path("plain.ply"), random_gaussians(3, 0));
-  EXPECT_EQ(read_blend_order(path("plain.ply")), BlendOrder::depth);
+  EXPECT_EQ(read_map_header(path("plain.ply")).rasterizer.order, BlendOrder::depth);
   write_map(path("map.ply"), random_gaussians(1, 0), {"blend_order size"});
   try {
-    read_blend_order(path("map.ply"));
+    read_map_header(path("map.ply"));
     ADD_FAILURE();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("map.ply: header: blend_order: must be depth or distance, is \"size\""));
@@ -188,7 +189,7 @@ const std::string ascii_properties =
 TEST_F(MapFile, ReadsAsciiInAnyOrderAndType) {
   write_text("map.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + ascii_properties +
                             "end_header\n1 0 0 0 1.5 2.5 3.5 0.1 0.2 0.3 2 -4 -5 -6\n");
-  const Gaussians g = read_map(path("map.ply"));
+  const Gaussians g = read_map(path("map.ply")).gaussians;
   EXPECT_EQ(g.sh_degree, 0);
   EXPECT_THAT(g.positions, testing::ElementsAre(1.5F, 2.5F, 3.5F));
   EXPECT_THAT(g.rotations, testing::ElementsAre(1, 0, 0, 0));
@@ -220,8 +221,10 @@ std::string parse_fault(const std::string& text) {
 const std::string good_row = "1 2 3 0.1 0.2 0.3 2 -4 -5 -6 1 0 0 0";
 
 TEST_F(MapFile, OpacitiesOfZeroAndOneHaveInfiniteLogits) {
-  const Gaussians g = parse_map(
-      "m.ply", ascii_map({"1 2 3 0.1 0.2 0.3 inf -4 -5 -6 1 0 0 0", "1 2 3 0.1 0.2 0.3 -inf -4 -5 -inf 1 0 0 0"}));
+  const Gaussians g =
+      parse_map("m.ply",
+                ascii_map({"1 2 3 0.1 0.2 0.3 inf -4 -5 -6 1 0 0 0", "1 2 3 0.1 0.2 0.3 -inf -4 -5 -inf 1 0 0 0"}))
+          .gaussians;
   ASSERT_EQ(g.size(), 2U);
   EXPECT_EQ(1.0F / (1.0F + std::exp(-g.opacity_logits[0])), 1.0F);
   EXPECT_LT(1.0F / (1.0F + std::exp(-g.opacity_logits[1])), 1e-6F);
@@ -234,7 +237,7 @@ TEST_F(MapFile, AFewBrokenRowsAreLeftOutAndNamed) {
   rows[7] = "4 2 3 0.1 0.2 0.3 2 -4 inf -6 1 0 nan 0";
   rows[19] = "9 2 3 0.1 0.2 0.5 2 -4 -5 -6 1 0 0 0";
   testing::internal::CaptureStderr();
-  const Gaussians g = parse_map("m.ply", ascii_map(rows));
+  const Gaussians g = parse_map("m.ply", ascii_map(rows)).gaussians;
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_THAT(said, HasSubstr("m.ply: 2 of 20 Gaussians are broken and left out (Gaussian 3: y is not finite)"));
   ASSERT_EQ(g.size(), 18U);
@@ -259,7 +262,7 @@ TEST_F(MapFile, WhatNoDeviceCanDrawIsLeftOutAndNamed) {
     std::vector<std::string> rows(20, good_row);
     rows[5] = row;
     testing::internal::CaptureStderr();
-    const Gaussians g = parse_map("m.ply", ascii_map(rows));
+    const Gaussians g = parse_map("m.ply", ascii_map(rows)).gaussians;
     EXPECT_THAT(testing::internal::GetCapturedStderr(),
                 HasSubstr("m.ply: 1 of 20 Gaussians are broken and left out (Gaussian 5: " + wrong + ")"));
     EXPECT_EQ(g.size(), 19U);
@@ -282,7 +285,7 @@ TEST_F(MapFile, WhatIsWithinTheLimitsIsDrawn) {
       "0 0 4 9999 0.2 0.3 20 -1 -1 -1 1 0 0 0",
   };
   for (const std::string& row : rows) {
-    GaussianView view(context, parse_map("m.ply", ascii_map({row})), {});
+    GaussianView view(context, parse_map("m.ply", ascii_map({row})));
     ViewRequest request;
     request.color = true;
     request.alpha = true;
@@ -303,15 +306,11 @@ TEST_F(MapFile, FieldsOfTheHeaderAreChecked) {
     write_text("m.ply", text);
     const std::string said = fault("m.ply");
     // Whoever reads the header alone is told the same.
-    for (const auto& read : std::vector<std::function<void()>>{
-             [&] { read_sigma_model(path("m.ply")); }, [&] { read_blend_order(path("m.ply")); },
-             [&] { read_map_quality(path("m.ply")); }, [&] { read_map_notes(path("m.ply")); }}) {
-      try {
-        read();
-        EXPECT_EQ(said, "");
-      } catch (const InputError& error) {
-        EXPECT_EQ(error.what(), said);
-      }
+    try {
+      read_map_header(path("m.ply"));
+      EXPECT_EQ(said, "");
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), said);
     }
     return said.empty() ? said : said.substr(path("m.ply").size());
   };
@@ -332,7 +331,7 @@ TEST_F(MapFile, FieldsOfTheHeaderAreChecked) {
   // Other programs' comments may begin with the same words, and say what they like.
   EXPECT_EQ(header_fault({"iterations were many", "iterations 3"}, false), "");
   EXPECT_EQ(header_fault({"iterations were many", "made by hand"}, false), "");
-  EXPECT_EQ(read_map_notes(path("m.ply")), (std::vector<std::string>{"made by hand"}));
+  EXPECT_EQ(read_map_header(path("m.ply")).notes, (std::vector<std::string>{"made by hand"}));
   EXPECT_EQ(header_fault({"blend_order depth", "blend_order depth"}, false), ": header: blend_order: comes twice");
 }
 
@@ -343,7 +342,7 @@ TEST_F(MapFile, EverySettingOfTrainingIsRead) {
     options.rasterizer.compensated = true;
     write_map(path("m.ply"), random_gaussians(2, 0), options.describe());
     EXPECT_EQ(fault("m.ply"), "") << preset;
-    const GaussianViewOptions view = view_options(path("m.ply"));
+    const MapHeader view = read_map_header(path("m.ply"));
     EXPECT_EQ(view.rasterizer.dilation, 0.1F);
     EXPECT_TRUE(view.rasterizer.compensated);
     EXPECT_EQ(view.rasterizer.order, options.rasterizer.order);
@@ -351,7 +350,8 @@ TEST_F(MapFile, EverySettingOfTrainingIsRead) {
 }
 
 TEST_F(MapFile, TwoScalesAreFlatDiscs) {
-  const Gaussians g = parse_map("m.ply", ascii_map({"1 2 3 0.1 0.2 0.3 2 -4 -5 1 0 0 0"}, "float", "scale_2"));
+  const Gaussians g =
+      parse_map("m.ply", ascii_map({"1 2 3 0.1 0.2 0.3 2 -4 -5 1 0 0 0"}, "float", "scale_2")).gaussians;
   EXPECT_THAT(g.log_scales, testing::ElementsAre(-4, -5, -13.8155F));
   // Another scale that is missing stays a fault.
   EXPECT_EQ(parse_fault(ascii_map({"1 2 3 0.1 0.2 0.3 2 -4 -5 1 0 0 0"}, "float", "scale_1")),
@@ -365,7 +365,7 @@ TEST_F(MapFile, WholeNumbersAreRefusedByPropertyAndType) {
       "m.ply: vertex: x is of type ushort, must be float or double (half floats stored as ushort: export the map as "
       "float)");
   EXPECT_EQ(parse_fault(ascii_map({row}, "int")), "m.ply: vertex: x is of type int, must be float or double");
-  EXPECT_EQ(parse_map("m.ply", ascii_map({row}, "double")).size(), 1U);
+  EXPECT_EQ(parse_map("m.ply", ascii_map({row}, "double")).gaussians.size(), 1U);
 }
 
 TEST_F(MapFile, NamesMayBeInAnyCaseBehindAByteOrderMark) {
@@ -377,10 +377,10 @@ TEST_F(MapFile, NamesMayBeInAnyCaseBehindAByteOrderMark) {
   }
   text.insert(text.find("element"), "comment blend_order distance\n");
   text = "\xEF\xBB\xBF" + text;
-  EXPECT_EQ(parse_map("m.ply", text).positions, (std::vector<float>{1, 2, 3}));
+  EXPECT_EQ(parse_map("m.ply", text).gaussians.positions, (std::vector<float>{1, 2, 3}));
   write_text("m.ply", text);
   EXPECT_TRUE(is_map_file(path("m.ply")));
-  EXPECT_EQ(read_blend_order(path("m.ply")), BlendOrder::distance);
+  EXPECT_EQ(read_map_header(path("m.ply")).rasterizer.order, BlendOrder::distance);
 }
 
 TEST_F(MapFile, FormatsThatAreNotReadAreNamed) {

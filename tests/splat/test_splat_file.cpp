@@ -164,9 +164,9 @@ TEST(SplatFile, MapsAreReadAndWrittenByExtension) {
   const test::Scratch scratch;
   const Gaussians g = parse_splat("m.splat", one);
   write_map(scratch / "m.SPLAT", g);
-  EXPECT_EQ(read_map(scratch / "m.SPLAT").positions, g.positions);
+  EXPECT_EQ(read_map(scratch / "m.SPLAT").gaussians.positions, g.positions);
   write_map(scratch / "m.ply", g);
-  EXPECT_EQ(read_map(scratch / "m.ply").sh, g.sh);
+  EXPECT_EQ(read_map(scratch / "m.ply").gaussians.sh, g.sh);
   EXPECT_TRUE(is_map_file(scratch / "m.SPLAT"));
   EXPECT_TRUE(is_map_file(scratch / "m.ply"));
   EXPECT_FALSE(is_map_file(scratch / "none.ply"));
@@ -194,7 +194,7 @@ TEST(SplatFile, MapsOfOtherProgramsAreRead) {
     ply.elements = {vertex, camera};
     write_ply(scratch / "other.ply", ply);
     EXPECT_TRUE(is_map_file(scratch / "other.ply"));
-    const Gaussians g = read_map(scratch / "other.ply");
+    const Gaussians g = read_map(scratch / "other.ply").gaussians;
     ASSERT_EQ(g.size(), 2U);
     EXPECT_EQ(g.sh_degree, degree);
     EXPECT_EQ(g.positions[2], 0.375F);

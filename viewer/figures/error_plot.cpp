@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/upper_median.hpp"
 #include "viewer/figures/decorations.hpp"
 #include "viewer/page.hpp"
 #include "viewer/text.hpp"
@@ -29,9 +30,8 @@ double longest_step(const std::vector<double>& times) {
   std::vector<double> steps;
   for (std::size_t i = 0; i + 1 < times.size(); ++i) steps.push_back(times[i + 1] - times[i]);
   if (steps.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle > 0.0 ? 2.5 * *middle : std::numeric_limits<double>::infinity();
+  const double usual = upper_median(std::move(steps));
+  return usual > 0.0 ? 2.5 * usual : std::numeric_limits<double>::infinity();
 }
 
 class Axes {

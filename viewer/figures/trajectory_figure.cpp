@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/upper_median.hpp"
 #include "odosplat/eval/association.hpp"
 #include "viewer/figures/decorations.hpp"
 #include "viewer/page.hpp"
@@ -33,10 +34,7 @@ struct Paths {
 double usual_step(const Trajectory& estimate) {
   std::vector<double> steps;
   for (std::size_t i = 0; i + 1 < estimate.size(); ++i) steps.push_back(estimate[i + 1].time - estimate[i].time);
-  if (steps.empty()) return 0.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return upper_median(std::move(steps));
 }
 
 Rgb path_color(double error, double error_max) {

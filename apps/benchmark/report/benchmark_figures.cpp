@@ -10,6 +10,7 @@
 #include "apps/cli/view/view_figures.hpp"
 #include "apps/command/interrupt.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/upper_median.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/image/image_file.hpp"
 #include "viewer/figures/error_plot.hpp"
@@ -157,10 +158,7 @@ ReportFigure draw_errors_figure(const BenchmarkResults& results, const std::stri
 
 double median_of(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upper_median(std::move(values));
 }
 
 }  // namespace

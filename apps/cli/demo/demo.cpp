@@ -138,7 +138,7 @@ void run(const Common& common, const std::string& out, const DemoOptions& option
   train.out = out + "/map.ply";
   train.report = out + "/training.json";
   train.iterations = options.iterations;
-  const TrainingReport report = train_map(common, train).training;
+  const TrainingReport report = run_training(common, train).training;
   std::vector<Row> rows;
   for (const char* method : {"gaussian", "interpolation"}) rows.push_back(run_method(common, out, world, method));
 

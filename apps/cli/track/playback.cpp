@@ -9,6 +9,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/core/upper_median.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -19,15 +20,14 @@ constexpr double longest_median = 5.0;
 
 void refuse_other_units(const Sequence& sequence, std::vector<double> gaps) {
   if (gaps.empty()) return;
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  if (*middle <= longest_median) return;
+  const double usual = upper_median(std::move(gaps));
+  if (usual <= longest_median) return;
   char fault[160];
   std::snprintf(fault, sizeof(fault),
-                "its images are %.6g s apart by their stamps: --realtime takes seconds, are they %s?", *middle,
-                *middle > 1e6   ? "nanoseconds"
-                : *middle > 1e3 ? "microseconds"
-                                : "milliseconds");
+                "its images are %.6g s apart by their stamps: --realtime takes seconds, are they %s?", usual,
+                usual > 1e6   ? "nanoseconds"
+                : usual > 1e3 ? "microseconds"
+                              : "milliseconds");
   throw InputError(sequence.name(), fault);
 }
 

@@ -11,7 +11,6 @@
 
 #include "apps/cli/map_quality_json.hpp"
 #include "apps/cli/train/stages.hpp"
-#include "apps/cli/train/train_start.hpp"
 #include "apps/cli/train/train_views.hpp"
 #include "apps/command/interrupt.hpp"
 #include "apps/command/json_text.hpp"
@@ -24,8 +23,7 @@
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/splat/map_file.hpp"
-#include "odosplat/splat/quality/map_quality.hpp"
-#include "odosplat/splat/quality/sigma_calibration.hpp"
+#include "odosplat/splat/map_training.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -117,41 +115,15 @@ void run(const TrainJob& job, Trainer& trainer) {
   throw Interrupted();
 }
 
-/// What the map is worth, and the lines of its header: settings, where its images were taken, how sure its depth is.
-struct Finished {
-  std::vector<ViewQuality> views;
-  MapQuality quality;
-  std::vector<std::string> notes;
-};
-
-Finished finish(const TrainJob& job, const compute::Context& device, const Trainer& trainer, const Gaussians& gaussians,
-                const TrainingStart& prepared, SequenceViews& views) {
-  Stages stages("finish", 2);
-  Finished f;
-  stages.next("judging the map by its images");
-  f.views = view_qualities(device, gaussians, views, prepared.surface.get(), trainer.exposures(),
-                           trainer.options().rasterizer);
-  const TrainingEvidence evidence{trainer.iteration(), TrainerOptions::preset(job.preset, views.count()).iterations,
-                                  gaussians.size(), prepared.cloud.size(), job.budget};
-  f.quality = judge_map(f.views, prepared.coverage, prepared.consistency, prepared.doubt, evidence);
-  f.notes = trainer.options().describe();
-  f.notes.push_back("iterations_done " + std::to_string(trainer.iteration()));
-  for (const auto& [name, value] : job.options.items()) f.notes.push_back("option " + name + " " + value);
-  for (const std::string& line : f.quality.to_lines()) f.notes.push_back(line);
-  std::vector<SE3> poses;
-  for (int i = 0; i < views.count(); ++i) poses.push_back(views.T_world_camera(i));
-  for (const std::string& line : place_lines(thinned_places(poses))) f.notes.push_back(line);
+TrainingFacts facts_of(const TrainJob& job, const SequenceViews& views) {
+  TrainingFacts facts;
+  facts.usual_iterations = TrainerOptions::preset(job.preset, views.count()).iterations;
+  facts.budget = job.budget;
+  for (const auto& [name, value] : job.options.items()) facts.notes.push_back("option " + name + " " + value);
   const FrameRange range = job.frames.empty() ? FrameRange() : parse_frames(job.frames);
   for (const Sequence& sequence : views.sequences())
-    f.notes.push_back(training_frames_line(sequence, job.every, range));
-  if (prepared.surface == nullptr) return f;
-  stages.next("how sure the map's depth is");
-  SigmaCalibrationOptions options;
-  options.rasterizer = trainer.options().rasterizer;
-  options.shared_sigma = prepared.shared_sigma;
-  for (const std::string& line : calibrated_sigma(device, gaussians, views, *prepared.surface, options).to_lines())
-    f.notes.push_back(line);
-  return f;
+    facts.notes.push_back(training_frames_line(sequence, job.every, range));
+  return facts;
 }
 
 nlohmann::ordered_json json_of_views(const std::vector<ViewQuality>& qualities, const SequenceViews& views) {
@@ -171,22 +143,24 @@ nlohmann::ordered_json json_of_views(const std::vector<ViewQuality>& qualities, 
   return rows;
 }
 
-void write_report(const TrainJob& job, const TrainingReport& report, const Finished& finished,
-                  const SequenceViews& views, const compute::Context& device) {
+void write_report(const TrainJob& job, const TrainedMap& made, const SequenceViews& views,
+                  const compute::Context& device) {
   if (job.report.empty()) return;
+  const TrainingReport& report = made.training;
+  const MapQuality& quality = *made.map.header.quality;
   nlohmann::ordered_json json{{"iterations", report.iterations},
                               {"gaussians", report.gaussians},
                               {"seconds", report.seconds},
                               {"iterations_per_second", report.iterations_per_second},
-                              {"psnr_db", report.iterations > 0 ? report.psnr_db : finished.quality.psnr_db},
+                              {"psnr_db", report.iterations > 0 ? report.psnr_db : quality.psnr_db},
                               {"undone", report.undone},
                               {"peak_memory_mb", peak_memory_mb()},
                               {"preset", job.preset},
                               {"seed", job.seed},
                               {"device", device.device().name},
                               {"version", ODOSPLAT_VERSION},
-                              {"quality", json_of(finished.quality)},
-                              {"images", json_of_views(finished.views, views)}};
+                              {"quality", json_of(quality)},
+                              {"images", json_of_views(made.views, views)}};
   if (device.profiling()) {
     nlohmann::ordered_json& stages = json["stages_ms"];  // a step, not the whole run
     for (const compute::StageTime& stage : device.stage_times())
@@ -210,9 +184,24 @@ void name_odd_images(const std::vector<ViewQuality>& qualities, const SequenceVi
                 (count > most ? ", ... (" + std::to_string(count) + ")" : ""));
 }
 
+TrainingStart prepare(const TrainJob& job, const InitializeOptions& initial, SequenceViews& views) {
+  Stages stages("prepare", 7);
+  stages.next("reading the cloud");
+  TrainingStart prepared = prepare_training(read_cloud(job.cloud, job.voxel, job.remove_outliers), job.cloud, initial,
+                                            views, [&stages](const std::string& name) { stages.next(name); });
+  if (prepared.doubt) {
+    char shares[96];
+    std::snprintf(shares, sizeof(shares), " (%.0f %% of the variance is left unexplained, instead of %.0f %%)",
+                  100.0 * prepared.doubt->as_given, 100.0 * prepared.doubt->instead);
+    log_warning("the images disagree on the colours of the cloud's points: likely cause: " +
+                prepared.doubt->hypothesis.words() + shares);
+  }
+  return prepared;
+}
+
 }  // namespace
 
-TrainOutcome train_map(const Common& common, const TrainJob& job) {
+TrainOutcome run_training(const Common& common, const TrainJob& job) {
   const InitializeOptions initial = initialize_options(job);
   initial.check();
   check_extension(job.out, {".ply", ".splat"});
@@ -222,37 +211,33 @@ TrainOutcome train_map(const Common& common, const TrainJob& job) {
                       job.frames.empty() ? FrameRange() : parse_frames(job.frames));
   const TrainerOptions options = trainer_options(job, views.count());
   options.check();
-  const TrainingStart prepared = prepare_training(job.cloud, job.voxel, job.remove_outliers, initial, views);
-  if (prepared.doubt) {
-    char shares[96];
-    std::snprintf(shares, sizeof(shares), " (%.0f %% of the variance is left unexplained, instead of %.0f %%)",
-                  100.0 * prepared.doubt->as_given, 100.0 * prepared.doubt->instead);
-    log_warning("the images disagree on the colours of the cloud's points: likely cause: " +
-                prepared.doubt->hypothesis.words() + shares);
-  }
+  const TrainingStart prepared = prepare(job, initial, views);
   const compute::Context device = open_device(common);
-  log_info("training " + std::to_string(prepared.start.size()) + " Gaussians on " + std::to_string(views.count()) +
+  log_info("training " + std::to_string(prepared.gaussians.size()) + " Gaussians on " + std::to_string(views.count()) +
            " images");
-  Trainer trainer(device, options, prepared.start, views, prepared.surface.get());
+  Trainer trainer(device, options, prepared.gaussians, views, prepared.surface.get());
   take_up(job, trainer);
   run(job, trainer);
-  const TrainingReport report = trainer.report();
   const bool saved = save(job, trainer);  // judging takes time, and may be interrupted
-  const Gaussians gaussians = trainer.gaussians();
-  const Finished finished = finish(job, device, trainer, gaussians, prepared, views);
+  const TrainedMap trained = [&] {
+    Stages stages("finish", 2);
+    return finish_training(device, trainer, prepared, views, facts_of(job, views),
+                           [&stages](const std::string& name) { stages.next(name); });
+  }();
   try {
-    write_map(job.out, gaussians, finished.notes);
+    write_map(job.out, trained.map);
   } catch (const InputError& e) {
     throw InputError(std::string(e.what()) + (saved ? "; what was trained is kept in " + checkpoint_file(job) +
                                                           ": --resume writes the map from it"
                                                     : "; nor could a checkpoint be written"));
   }
   if (saved) std::filesystem::remove(checkpoint_file(job));
-  write_report(job, report, finished, views, device);
+  write_report(job, trained, views, device);
   print_profile(common, device);
-  name_odd_images(finished.views, views);
-  if (!finished.quality.good) log_warning(job.out + ": " + finished.quality.verdict);
-  return {report, finished.quality};
+  name_odd_images(trained.views, views);
+  const MapQuality& quality = *trained.map.header.quality;
+  if (!quality.good) log_warning(job.out + ": " + quality.verdict);
+  return {trained.training, quality};
 }
 
 void add_train(CLI::App& app, Common& common) {
@@ -303,7 +288,7 @@ void add_train(CLI::App& app, Common& common) {
   add_set_flag(command, *settings, groups);
   command->final_callback([&common, job, settings, groups] {
     job->options = OptionValues(*settings, groups);
-    const TrainOutcome outcome = train_map(common, *job);
+    const TrainOutcome outcome = run_training(common, *job);
     const TrainingReport& report = outcome.training;
     if (report.iterations == 0) {
       print("%s: %zu Gaussians of the cloud, untrained\n", job->out.c_str(), report.gaussians);

@@ -48,6 +48,6 @@ struct TrainOutcome {
 /// Makes map.ply from a cloud and posed images, judges it, and writes the report if asked. Checkpoints go to
 /// OUT.checkpoint, which is removed at the end; one that cannot be written is a warning, and tried again. After Ctrl-C
 /// a checkpoint is written, OUT stays as it was, and Interrupted is thrown. InputError if no image sees the cloud.
-TrainOutcome train_map(const Common& common, const TrainJob& job);
+TrainOutcome run_training(const Common& common, const TrainJob& job);
 
 }  // namespace odosplat::apps

@@ -12,6 +12,7 @@
 #include "odosplat/cloud/neighbor_search.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
+#include "odosplat/core/upper_median.hpp"
 
 namespace odosplat {
 namespace {
@@ -34,13 +35,6 @@ struct Match {
   double distance = 0.0;  // [m] from the plane, signed
 };
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Evenly from the whole list.
 std::vector<Eigen::Vector3d> picked(const std::vector<Eigen::Vector3f>& points, int most) {
   const std::size_t n = std::min(points.size(), static_cast<std::size_t>(most));
@@ -59,7 +53,7 @@ double spacing_of(const PointCloud& cloud, const NeighborSearch& search) {
       distances.push_back(std::sqrt(static_cast<double>(squares[1])));
     }
   }
-  return median_of(std::move(distances));
+  return upper_median(std::move(distances));
 }
 
 // Sums of J J^T and J r over matches, the parameters about `centre` with lengths in units of `extent`.
@@ -183,7 +177,7 @@ class Aligner {
     for (const Match& m : matches_) {
       if (m.found) distances.push_back(std::abs(m.distance));
     }
-    const double sigma = sigma_of_mad * median_of(std::move(distances));
+    const double sigma = sigma_of_mad * upper_median(std::move(distances));
     const double width = std::max(std::min(3.0 * sigma, radius), 0.5 * options_.inlier);
     System system = sum_up([width](const Match& m) { return tukey(m.distance, width); });
     if (!(system.weight > 0.0)) return INFINITY;
@@ -219,7 +213,7 @@ class Aligner {
     result.inlier_share = static_cast<double>(result.inliers) / static_cast<double>(result.points);
     if (frame_matches()) {
       result.rmse_m = std::sqrt(squares / static_cast<double>(result.inliers));
-      result.median_m = median_of(std::move(distances));
+      result.median_m = upper_median(std::move(distances));
       const System system = sum_up([](const Match&) { return 1.0; });
       const Eigen::SelfAdjointEigenSolver<Matrix7d> solver(system.H / system.weight, Eigen::EigenvaluesOnly);
       result.weakest = solver.eigenvalues()[0];

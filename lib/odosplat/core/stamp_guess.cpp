@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include "odosplat/core/stamp_guess.hpp"
+#include "odosplat/core/upper_median.hpp"
 
 #include <algorithm>
 #include <array>
@@ -27,17 +28,10 @@ constexpr double largest_image_step = 10.0;
 // Stamps that are nearer than this are no ms, us or ns: 1 kHz.
 constexpr double least_raw_step = 0.9;
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double median_step(const std::vector<double>& times) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
-  return median(std::move(steps));
+  return upper_median(std::move(steps));
 }
 
 double span(const std::vector<double>& times) { return times.back() - times.front(); }
@@ -144,7 +138,7 @@ std::string offset(const NamedStamps& a, const NamedStamps& b, double tolerance)
   }
   std::vector<double> distances;
   for (const double t : a.times) distances.push_back(std::abs(b.times[nearest(b.times, t)] - t));
-  return "the nearest stamps are " + number(median(std::move(distances))) + " s apart (median)";
+  return "the nearest stamps are " + number(upper_median(std::move(distances))) + " s apart (median)";
 }
 
 }  // namespace

@@ -48,9 +48,10 @@ struct ConventionOptions {
 /// Rows are judged by the error relative to depth: a scale that makes everything small would win in metres.
 ///
 /// A row beats another as beats() says. Among the rows that the best row does not beat, the one most like the declared
-/// convention is the winner: data that cannot tell do not accuse. A part of the winner is called decided if the winner
-/// beats every row that differs from it in this part and in at most one other; three mistakes at once that fit by
-/// chance are not considered. A row that could not be tried, because the poses it needs are not there, is not beaten.
+/// convention is the winner: where the data do not decide, nothing is called wrong. A part of the winner is called
+/// decided if the winner beats every row that differs from it in this part and in at most one other; three mistakes at
+/// once that fit by chance are not considered. A row that could not be tried, because the poses it needs are not there,
+/// is not beaten.
 ///
 /// A sequence shorter than twice the gap is used in pairs of every gap from a third of its length up, so that few
 /// images say as much as they can. Pairs that can be tried under every shift are preferred. Gaps are halved while no

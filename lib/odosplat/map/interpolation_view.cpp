@@ -11,6 +11,7 @@
 #include "odosplat/cloud/projected_points.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
+#include "odosplat/core/upper_median.hpp"
 
 namespace odosplat {
 namespace {
@@ -224,10 +225,8 @@ InterpolationView::InterpolationView(const PointCloud& cloud, const Interpolatio
     residuals_.push_back(plane.residual);
   }
   if (cloud_.size() == 0) return;
-  std::vector<float> sorted = spacings_;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  for (float& spacing : spacings_) spacing = std::min(spacing, max_spacing_medians * *middle);
+  const float usual = upper_median(spacings_);
+  for (float& spacing : spacings_) spacing = std::min(spacing, max_spacing_medians * usual);
 }
 
 ViewImages InterpolationView::render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) {

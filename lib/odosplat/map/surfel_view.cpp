@@ -11,6 +11,7 @@
 #include "odosplat/cloud/projected_points.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
+#include "odosplat/core/upper_median.hpp"
 
 namespace odosplat {
 namespace {
@@ -27,13 +28,6 @@ PointCloud finite_part(const PointCloud& cloud) {
     if (cloud.has_normals()) finite.normals.push_back(cloud.normals[i]);
   }
   return finite;
-}
-
-double median(std::vector<float> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Rows and columns that a disc can touch; empty if last < first.
@@ -179,7 +173,8 @@ SurfelView::SurfelView(const PointCloud& cloud, const SurfelOptions& options)
   }
   radius_ = options_.radius > 0.0
                 ? options_.radius
-                : options_.radius_spacings * median(mean_neighbor_distances(cloud_, spacing_neighbors));
+                : options_.radius_spacings *
+                      static_cast<double>(upper_median(mean_neighbor_distances(cloud_, spacing_neighbors)));
 }
 
 ViewImages SurfelView::render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) {

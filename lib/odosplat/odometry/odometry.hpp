@@ -33,9 +33,8 @@ struct OdometryOptions {
   AcceptOptions accept;
   /// Neighbouring pixels err alike, and a map's colours are off by parts of a pixel for a whole view; normal equations
   /// know nothing of either. A frame's covariance is that of its alignment with its keyframe times the first, plus its
-  /// keyframe's in the window times the second. Measured: the mean normalised error squared, of which 6 is right, is
-  /// 5.5 on icl_office_kt3, 3.4 on aug_icl_livingroom1 and 2.8 to 3.2 on the stand-ins icl_1 to icl_4; with an earlier
-  /// build 4 to 10 on augm_1 to augm_4.
+  /// keyframe's in the window times the second. docs/rules.md has the mean normalised error squared, of which 6 is
+  /// right.
   double frame_covariance_factor = 1.0;
   double keyframe_covariance_factor = 40.0;
   /// Real time: keyframes are made on a thread of their own, while track() goes on with the keyframes that stand.
@@ -43,7 +42,7 @@ struct OdometryOptions {
   /// bits.
   bool background = false;
   /// background: the map is rendered ahead, at the pose where the next keyframe is expected, this many images before.
-  /// Two images ahead constant velocity is right to 2 px in 84 % of the cases (icl_office_kt3), three ahead in 64 %.
+  /// Two images ahead constant velocity is mostly right to 2 px, three ahead less often (docs/rules.md).
   double prefetch_images = 2.0;
   /// Frames about which the map says nothing, beyond which a pose no longer counts as one in the map.
   int max_unconfirmed = 10;

@@ -11,7 +11,6 @@ namespace odosplat {
 struct StageTime {
   std::string name{};
   double milliseconds = 0.0;
-  long calls = 0;
 };
 
 using SteadyClock = std::chrono::steady_clock;
@@ -24,10 +23,7 @@ inline double milliseconds_since(SteadyClock::time_point start) {
 class StageTimer {
  public:
   explicit StageTimer(StageTime& stage) : stage_(stage), start_(SteadyClock::now()) {}
-  ~StageTimer() {
-    stage_.milliseconds += milliseconds_since(start_);
-    ++stage_.calls;
-  }
+  ~StageTimer() { stage_.milliseconds += milliseconds_since(start_); }
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "odosplat/core/error.hpp"
-#include "odosplat/splat/map_file.hpp"
 
 namespace odosplat {
 
@@ -26,12 +25,17 @@ void GaussianViewOptions::check() const {
   rasterizer.check();
 }
 
-GaussianViewOptions view_options(const std::string& map_file) {
+namespace {
+
+GaussianViewOptions options_of(const MapHeader& header, DepthMode depth_mode) {
   GaussianViewOptions options;
-  options.sigma = read_sigma_model(map_file);
-  options.rasterizer = read_rasterizer_options(map_file);
+  options.depth_mode = depth_mode;
+  options.sigma = header.sigma.value_or(SigmaModel());
+  options.rasterizer = header.rasterizer;
   return options;
 }
+
+}  // namespace
 
 DepthMode depth_mode(const std::string& name) {
   if (name == "expected") return DepthMode::expected;
@@ -40,6 +44,9 @@ DepthMode depth_mode(const std::string& name) {
   if (name == "surface") return DepthMode::surface;
   throw InputError("depth", "must be expected, median, blended or surface, is \"" + name + "\"");
 }
+
+GaussianView::GaussianView(const compute::Context& context, const Map& map, DepthMode depth_mode)
+    : GaussianView(context, map.gaussians, options_of(map.header, depth_mode)) {}
 
 GaussianView::GaussianView(const compute::Context& context, const Gaussians& gaussians,
                            const GaussianViewOptions& options)

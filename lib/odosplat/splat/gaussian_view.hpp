@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "odosplat/map/map_view.hpp"
+#include "odosplat/splat/map.hpp"
 #include "odosplat/splat/raster/device_gaussians.hpp"
 #include "odosplat/splat/raster/rasterizer.hpp"
 #include "odosplat/splat/sigma_model.hpp"
@@ -15,16 +16,12 @@ namespace odosplat {
 struct GaussianViewOptions {
   DepthMode depth_mode = DepthMode::surface;
   float min_alpha = 0.5F;  // pixels that the map covers less have no depth, 0..1
-  SigmaModel sigma;        // the map's own (calibrated_sigma, map_file.hpp), if it knows it
+  SigmaModel sigma;
   RasterizerOptions rasterizer;
 
   /// Throws InputError naming the field.
   void check() const;
 };
-
-/// Defaults, with what the map's file says of itself: how sure its depth is, what its Gaussians are sorted by. Throws
-/// what read_sigma_model and read_rasterizer_options (map_file.hpp) throw.
-GaussianViewOptions view_options(const std::string& map_file);
 
 /// "expected", "median", "blended" or "surface"; InputError else.
 DepthMode depth_mode(const std::string& name);
@@ -36,7 +33,10 @@ DepthMode depth_mode(const std::string& name);
 /// InputError for bad options, Gaussians or camera. Contract of MapView otherwise.
 class GaussianView : public MapView {
  public:
-  GaussianView(const compute::Context& context, const Gaussians& gaussians, const GaussianViewOptions& options = {});
+  /// As the map's header says: order of blending, sigma.
+  GaussianView(const compute::Context& context, const Map& map, DepthMode depth_mode = DepthMode::surface);
+  /// Gaussians without a header, such as those in training.
+  GaussianView(const compute::Context& context, const Gaussians& gaussians, const GaussianViewOptions& options);
 
   ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override;
   /// Composites those pixels only (Rasterizer::forward_pixels). sigma is without the term of the slope.

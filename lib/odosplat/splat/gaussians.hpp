@@ -8,6 +8,9 @@
 
 namespace odosplat {
 
+/// Basis function of degree 0 of the spherical harmonics: colour = sh_constant * sh + 0.5. SH_0 of kernels/sh.cl.
+inline constexpr float sh_constant = 0.28209479F;
+
 /// Coefficients of one colour channel of spherical harmonics of a degree: (degree + 1)^2.
 constexpr int sh_coefficients(int degree) { return (degree + 1) * (degree + 1); }
 

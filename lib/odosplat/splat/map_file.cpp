@@ -98,9 +98,16 @@ float finite_value(const Field& field, float value) {
   return value;
 }
 
-void check_comments(const std::string& path, const std::vector<std::string>& comments) {
+MapHeader header_of(const std::string& path, const std::vector<std::string>& comments) {
+  std::vector<std::string> notes = comments;
+  const bool is_ours = std::find(notes.begin(), notes.end(), format_notes.front()) != notes.end();
+  std::erase_if(notes, [is_ours](const std::string& note) {
+    return std::find(format_notes.begin(), format_notes.end(), note) != format_notes.end() ||
+           (!is_ours && names_map_setting(note));
+  });
   try {
     check_map_header(comments);
+    return MapHeader::from_notes(std::move(notes));
   } catch (const InputError& e) {
     throw InputError(path, "header", e.what());
   }
@@ -108,7 +115,6 @@ void check_comments(const std::string& path, const std::vector<std::string>& com
 
 Gaussians gaussians_from_ply(const Ply& ply) {
   const std::string& path = ply.file;
-  check_comments(path, ply.comments);
   const PlyElement& vertex = ply.element(element_name);
   std::vector<std::string> names;
   for (const PlyProperty& property : vertex.properties) names.push_back(property.name);
@@ -142,15 +148,21 @@ Gaussians gaussians_from_ply(const Ply& ply) {
   return gaussians;
 }
 
+Map map_from_ply(const Ply& ply) {
+  MapHeader header = header_of(ply.file, ply.comments);
+  return {gaussians_from_ply(ply), std::move(header)};
+}
+
 // A map whose places went through single precision far from the origin is spoilt, whoever made it.
-Gaussians near_origin(const std::string& name, Gaussians gaussians) {
+Map near_origin(const std::string& name, Map map) {
+  const Gaussians& gaussians = map.gaussians;
   std::vector<Eigen::Vector3d> positions;
   positions.reserve(gaussians.size());
   for (std::size_t i = 0; i < gaussians.size(); ++i) {
     positions.push_back(Eigen::Map<const Eigen::Vector3f>(&gaussians.positions[3 * i]).cast<double>());
   }
   require_near_origin(name, positions);
-  return gaussians;
+  return map;
 }
 
 void write_splat(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
@@ -162,21 +174,6 @@ void write_splat(const std::string& path, const Gaussians& gaussians, const std:
                 std::to_string(gaussians.sh_degree) + " are left out");
   }
   write_file_atomically(path, splat_bytes(gaussians));
-}
-
-/// What the header's comments say, checked; none if the file is no PLY or cannot be read.
-std::vector<std::string> header_notes(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return {};
-  std::ifstream file(path, std::ios::binary);
-  std::vector<std::string> comments;
-  try {
-    comments = read_ply_header(path, file).comments;
-  } catch (const InputError&) {
-    return {};
-  }
-  check_comments(path, comments);
-  return comments;
 }
 
 /// Empty if it is no regular file or cannot be read.
@@ -213,71 +210,28 @@ bool is_map_file(const std::string& path) {
   return false;
 }
 
-Gaussians read_map(const std::string& path) {
+Map read_map(const std::string& path) {
   refuse_foreign_format(path, first_bytes(path));
-  return near_origin(path, is_splat_path(path) ? parse_splat(path, read_file(path, max_data_bytes))
-                                               : gaussians_from_ply(read_ply(path)));
+  return near_origin(path, is_splat_path(path) ? Map{parse_splat(path, read_file(path, max_data_bytes)), {}}
+                                               : map_from_ply(read_ply(path)));
 }
 
-Gaussians parse_map(const std::string& name, const std::string& bytes) {
+Map parse_map(const std::string& name, const std::string& bytes) {
   refuse_foreign_format(name, bytes);
-  return near_origin(name, is_splat_path(name) ? parse_splat(name, bytes) : gaussians_from_ply(parse_ply(name, bytes)));
+  return near_origin(name,
+                     is_splat_path(name) ? Map{parse_splat(name, bytes), {}} : map_from_ply(parse_ply(name, bytes)));
 }
 
-std::vector<std::string> read_map_notes(const std::string& path) {
-  std::vector<std::string> notes = header_notes(path);
-  const bool is_ours = std::find(notes.begin(), notes.end(), format_notes.front()) != notes.end();
-  std::erase_if(notes, [is_ours](const std::string& note) {
-    return std::find(format_notes.begin(), format_notes.end(), note) != format_notes.end() ||
-           (!is_ours && names_map_setting(note));
-  });
-  return notes;
+MapHeader read_map_header(const std::string& path) {
+  const std::string start = first_bytes(path);
+  if (start.empty()) read_file(path, max_data_bytes);  // says why it cannot be read
+  refuse_foreign_format(path, start);
+  if (is_splat_path(path)) return {};
+  std::ifstream file(path, std::ios::binary);
+  return header_of(path, read_ply_header(path, file).comments);
 }
 
-SigmaModel read_sigma_model(const std::string& path) {
-  const std::vector<std::string> notes = header_notes(path);
-  try {
-    return SigmaModel::from_lines(notes);
-  } catch (const InputError& e) {
-    throw InputError(path, "header", e.what());
-  }
-}
-
-BlendOrder read_blend_order(const std::string& path) {
-  const std::vector<std::string> notes = header_notes(path);
-  try {
-    return blend_order_from_lines(notes);
-  } catch (const InputError& e) {
-    throw InputError(path, "header", e.what());
-  }
-}
-
-RasterizerOptions read_rasterizer_options(const std::string& path) {
-  const std::vector<std::string> notes = header_notes(path);
-  RasterizerOptions options;
-  options.order = read_blend_order(path);
-  if (const auto value = map_header_number(notes, "dilation")) options.dilation = static_cast<float>(*value);
-  if (const auto value = map_header_number(notes, "compensated")) options.compensated = *value != 0.0;
-  return options;
-}
-
-std::vector<SE3> read_map_places(const std::string& path) {
-  const std::vector<std::string> notes = header_notes(path);
-  try {
-    return places_from_lines(notes);
-  } catch (const InputError& e) {
-    throw InputError(path, "header", e.what());
-  }
-}
-
-std::optional<MapQuality> read_map_quality(const std::string& path) {
-  const std::vector<std::string> notes = header_notes(path);
-  try {
-    return MapQuality::from_lines(notes);
-  } catch (const InputError& e) {
-    throw InputError(path, "header", e.what());
-  }
-}
+void write_map(const std::string& path, const Map& map) { write_map(path, map.gaussians, map.header.notes); }
 
 void write_map(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
   gaussians.check();

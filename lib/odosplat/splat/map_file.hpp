@@ -2,20 +2,14 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "odosplat/splat/blend_order.hpp"
-#include "odosplat/splat/gaussians.hpp"
-#include "odosplat/splat/map_places.hpp"
-#include "odosplat/splat/quality/map_quality.hpp"
-#include "odosplat/splat/raster/rasterizer.hpp"
-#include "odosplat/splat/sigma_model.hpp"
+#include "odosplat/splat/map.hpp"
 
 namespace odosplat {
 
-/// Reads Gaussians from a .splat file (see splat_file.hpp) if the path ends so, else from a PLY file as 3D Gaussian
+/// Reads a map from a .splat file (see splat_file.hpp) if the path ends so, else from a PLY file as 3D Gaussian
 /// Splatting programs write it (Kerbl et al. 2023), any encoding and any scalar types, properties in any order, of
 /// element `vertex`:
 ///   x y z [m], f_dc_0..2, f_rest_0..(3K - 4) channel after channel (all of red first), opacity (logit),
@@ -30,9 +24,9 @@ namespace odosplat {
 /// first), no Gaussians, a format that is not read (refuse_foreign_format, refuse_packed_ply), a map too far from the
 /// origin for single precision (require_near_origin), a broken field of our header (check_map_header), and what
 /// read_ply refuses.
-Gaussians read_map(const std::string& path);
+Map read_map(const std::string& path);
 /// The same from memory; `name` stands for the file, its extension included.
-Gaussians parse_map(const std::string& name, const std::string& bytes);
+Map parse_map(const std::string& name, const std::string& bytes);
 
 /// Whether the name ends in .splat, in letters of either size.
 bool is_splat_path(const std::string& path);
@@ -41,34 +35,8 @@ bool is_splat_path(const std::string& path);
 /// if it cannot be read; InputError for a PLY whose header is broken.
 bool is_map_file(const std::string& path);
 
-/// The lines of `notes` that write_map was given, or the comments of another program's PLY, without those that begin
-/// with the name of a setting of ours; none of other formats.
-std::vector<std::string> read_map_notes(const std::string& path);
-
-/// The functions below read the header's comments, and throw InputError naming the file and the field for what
-/// check_map_header refuses.
-
-/// How sure the map's depth is, from the header's comments "sigma_..." that training writes (SigmaModel::to_lines); the
-/// defaults where there are none (maps trained elsewhere, other formats). InputError if they are no numbers.
-SigmaModel read_sigma_model(const std::string& path);
-
-/// What the map's Gaussians are sorted by when they are blended, from the header's comment "blend_order ..." that
-/// training writes (blend_order_line); depth where there is none (maps trained elsewhere, other formats). InputError if
-/// it is neither.
-BlendOrder read_blend_order(const std::string& path);
-
-/// How the map's Gaussians were widened and their opacities compensated in training, from the header's comments
-/// "dilation" and "compensated", and their blend order: what they are to be rendered with. The defaults where there are
-/// none.
-RasterizerOptions read_rasterizer_options(const std::string& path);
-
-/// Where the map's training images were taken, thinned, from the header's comments "training_view ..." (place_lines);
-/// none where there are no such comments. InputError if they are broken.
-std::vector<SE3> read_map_places(const std::string& path);
-
-/// What training said the map is worth, from the header's comments "quality_..." (MapQuality::to_lines); none where
-/// there are none. InputError if they are broken.
-std::optional<MapQuality> read_map_quality(const std::string& path);
+/// The header alone, Gaussians unread. InputError as read_map as far as the header shows it.
+MapHeader read_map_header(const std::string& path);
 
 /// Writes a .splat file if the path ends so (degree 0 only, quantised; a warning says what is lost, `notes` have no
 /// place), else that PLY layout, binary little endian, floats, with nx ny nz = direction of the shortest axis (unit
@@ -77,5 +45,7 @@ std::optional<MapQuality> read_map_quality(const std::string& path);
 /// read_map() gives back the same bits of a PLY. Written beside the path and renamed. Throws InputError if the path
 /// cannot be written, or if there are no Gaussians.
 void write_map(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes = {});
+/// The same with the notes of the map's header.
+void write_map(const std::string& path, const Map& map);
 
 }  // namespace odosplat

@@ -28,7 +28,7 @@ struct Field {
   Kind kind;
   double least;
   double most;
-  bool read_back;  // by view_options, map info and the commands that use a map
+  bool read_back;  // by MapHeader, map info and the commands that use a map
 };
 
 // The factors of sigma may be twenty times what calibration gives at most; a depth share of 1 is a sigma as large as

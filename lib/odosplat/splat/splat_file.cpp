@@ -17,9 +17,8 @@ namespace odosplat {
 namespace {
 
 constexpr std::size_t record = 32;
-constexpr float min_log_scale = -23.0F;     // 1e-10 m: stands for 0
-constexpr float max_log_scale = 80.0F;      // as float can hold it
-constexpr float sh_constant = 0.28209479F;  // basis function of degree 0
+constexpr float min_log_scale = -23.0F;  // 1e-10 m: stands for 0
+constexpr float max_log_scale = 80.0F;   // as float can hold it
 
 std::uint8_t byte_of(float value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F))); }
 

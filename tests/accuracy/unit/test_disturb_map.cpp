@@ -113,13 +113,13 @@ TEST(EditedMap, DropsWholeGaussiansAndPoints) {
   double share = 0.0;
   const apps::MapFlags edited = edited_map(flags, edit, (folder / "out").string(), share);
   EXPECT_EQ(share, 0.5);
-  const Gaussians left = read_map(edited.map);
+  const Gaussians left = read_map(edited.map).gaussians;
   ASSERT_EQ(left.size(), 3U);
   EXPECT_EQ(left.positions, (std::vector<float>{0, 0, 0, 2, 2, 2, 4, 3, 3}));
   EXPECT_EQ(left.opacity_logits, (std::vector<float>{0, 2, 3}));
   EXPECT_EQ(left.rotations[4], 3.0F);
   EXPECT_EQ(left.sh[12], gaussians.sh[24]);
-  EXPECT_FLOAT_EQ(read_sigma_model(edited.map).depth_share, 0.0123F);
+  EXPECT_FLOAT_EQ(read_map_header(edited.map).sigma->depth_share, 0.0123F);
   const PointCloud points = read_point_cloud(edited.cloud);
   ASSERT_EQ(points.size(), 3U);
   EXPECT_EQ(points.points[1], Eigen::Vector3f(2, 2, 2));

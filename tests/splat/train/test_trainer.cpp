@@ -88,8 +88,10 @@ TEST(Trainer, LearnsColourAndKeepsDepth) {
 
   // Judged between the poses trained on.
   const SE3 T_world_camera = scene.T_world_camera(5);
-  const auto before = GaussianView(context, initial).render(scene.camera, T_world_camera, {true, false});
-  const auto after = GaussianView(context, trainer.gaussians()).render(scene.camera, T_world_camera, {true, false});
+  const auto before =
+      GaussianView(context, initial, GaussianViewOptions()).render(scene.camera, T_world_camera, {true, false});
+  const auto after = GaussianView(context, trainer.gaussians(), GaussianViewOptions())
+                         .render(scene.camera, T_world_camera, {true, false});
   const ColorImage color = scene.color(T_world_camera);
   EXPECT_GT(test::psnr_db(after.color, color), test::psnr_db(before.color, color) + 8.0);
   EXPECT_GT(test::psnr_db(after.color, color), 24.0);
@@ -127,7 +129,7 @@ TEST(Trainer, DepthTermBringsDepthToTheSurface) {
     Trainer trainer(context, short_options(240), initial, views, with_surface ? &surface : nullptr);
     while (!trainer.done()) trainer.step();
     EXPECT_EQ(trainer.report().depth_error > 0.0, with_surface);
-    GaussianView view(context, trainer.gaussians());
+    GaussianView view(context, trainer.gaussians(), GaussianViewOptions());
     for (int k = 1; k < 10; k += 2) {
       const SE3 T_world_camera = scene.T_world_camera(k);
       error[with_surface] +=

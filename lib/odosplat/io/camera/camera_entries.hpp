@@ -12,8 +12,8 @@ namespace odosplat {
 /// What a camera.yaml says. Keys: width height fx fy cx cy (all needed), depth_scale, distortion [k1 k2 p1 p2 k3], fps,
 /// gamma, vignette.
 struct CameraFile {
-  Camera camera;                   // fy > 0 always; pixel centres at integers
-  int fy_sign = 1;                 // -1: the file has a negative fy, so poses and cloud are to be reflected
+  Camera camera;    // fy > 0 always; pixel centres at integers
+  int fy_sign = 1;  // -1: the file has a negative fy, so poses, and points of the same data set, are reflected
   double depth_scale = 1000.0;     // units of a 16-bit depth image a metre
   bool has_depth_scale = false;    // false: the file does not say, the layout's own default counts
   std::vector<double> distortion;  // k1 k2 p1 p2 k3 (OpenCV's order; 4 values: k3 = 0); empty: none

@@ -9,6 +9,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/core/upper_median.hpp"
 
 namespace odosplat {
 namespace {
@@ -44,9 +45,7 @@ Parameters median_of(const std::vector<Parameters>& all) {
   std::vector<double> values(all.size());
   for (std::size_t k = 0; k < median.size(); ++k) {
     for (std::size_t i = 0; i < all.size(); ++i) values[i] = all[i][k];
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    median[k] = *middle;
+    median[k] = upper_median(values);
   }
   return median;
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/upper_median.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/camera/camera_check.hpp"
 #include "odosplat/io/image/image_container.hpp"
@@ -75,10 +76,7 @@ void require_positive(const std::string& name, const NumberLine& line, double ex
 
 void divide_by_median(const std::string& name, std::vector<double>& exposures) {
   if (exposures.empty()) return;
-  std::vector<double> sorted = exposures;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double median = *middle;
+  const double median = upper_median(exposures);
   for (std::size_t i = 0; i < exposures.size(); ++i) {
     const double relative = exposures[i] / median;
     if (!(relative >= least_exposure && relative <= most_exposure)) {

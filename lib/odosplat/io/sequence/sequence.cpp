@@ -16,6 +16,7 @@
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/near_origin.hpp"
 #include "odosplat/core/stamp_guess.hpp"
+#include "odosplat/core/upper_median.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/camera/camera_check.hpp"
 #include "odosplat/io/camera/photometric.hpp"
@@ -58,9 +59,7 @@ double median_fps(const std::vector<FrameFiles>& frames) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < frames.size(); ++i) steps.push_back(frames[i].time - frames[i - 1].time);
   if (steps.empty()) return default_fps;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return 1.0 / *middle;
+  return 1.0 / upper_median(std::move(steps));
 }
 
 std::string size_text(const cv::Size& size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }

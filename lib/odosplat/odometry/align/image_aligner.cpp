@@ -276,7 +276,6 @@ Alignment ImageAligner::align(const TrackingReference& reference, const FramePyr
     if (cutoff > static_cast<float>(options_.cutoff)) {
       sums = evaluate(points, camera, image, estimate, huber, static_cast<float>(options_.cutoff));
     }
-    result.points = sums.inliers;
     result.rmse = std::sqrt(sums.squares / std::max(1, sums.inliers));
     result.inlier_share = static_cast<double>(sums.inliers) / std::max(1, sums.in_view);
     result.coverage = static_cast<double>(sums.in_view) / static_cast<double>(points.size());

@@ -36,7 +36,6 @@ struct Alignment {
   double coverage = 0.0;      // share of all points that are in view
   double contrast = 0.0;      // spread of the frame's values at the points over what the host's values predict
   double correlation = 0.0;   // -1..1, of the frame's values at the points in view with the host's, outliers included
-  int points = 0;             // inliers on the finest level
   /// Of exp(xi) applied on the right of T_target_host, xi = (translation, rotation).
   Matrix6d information = Matrix6d::Zero();
   bool finished = false;  // false: too few points in view, or not finite

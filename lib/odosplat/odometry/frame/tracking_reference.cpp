@@ -11,7 +11,7 @@ namespace odosplat {
 namespace {
 
 ReferencePoint make_point(const Camera& camera, const GradientImage& gradient, const cv::Point& pixel, double q,
-                          double sigma, float c2) {
+                          float c2) {
   const Eigen::Vector3d p = camera.ray(pixel.x, pixel.y) / q;
   const float* g = gradient.ptr<float>(pixel.y) + 4 * pixel.x;
   const Eigen::Matrix<double, 2, 6> J = projection_jacobian(camera, p);
@@ -23,7 +23,6 @@ ReferencePoint make_point(const Camera& camera, const GradientImage& gradient, c
   out.weight = c2 / (c2 + g[3]);
   out.u = static_cast<float>(pixel.x);
   out.v = static_cast<float>(pixel.y);
-  out.inverse_sigma = static_cast<float>(1.0 / sigma);
   for (int k = 0; k < 6; ++k) out.jacobian[k] = static_cast<float>(g[1] * J(0, k) + g[2] * J(1, k));
   out.jacobian[6] = -g[0];
   out.jacobian[7] = -1.0F;
@@ -84,7 +83,6 @@ void ReferenceOptions::check() const {
   require(min_points >= 10, "reference.min_points", "at least 10");
   require(gradient_weight > 0.0, "reference.gradient_weight", "positive");
   require(min_gradient >= 0.0, "reference.min_gradient", "at least 0");
-  require(projected_sigma > 0.0, "reference.projected_sigma", "positive");
   require(bare_share >= 0.0 && bare_share <= 1.0, "reference.bare_share", "in [0, 1]");
   require(bare_factor >= 1.0, "reference.bare_factor", "at least 1");
 }
@@ -143,7 +141,7 @@ TrackingReference build_reference(const FramePyramid& pyramid, std::span<const G
       // The fitted plane's depth on this level's own ray: level 0 pixels lie up to half a pixel beside it.
       const double q = surface->edge ? surface->inverse_depth : surface->m_camera.dot(ray);
       if (!(q > 0.0)) continue;
-      points.push_back(make_point(camera, gradient, pixel, q, surface->sigma, c2));
+      points.push_back(make_point(camera, gradient, pixel, q, c2));
     }
   }
   return reference;
@@ -163,7 +161,7 @@ void add_projected_points(TrackingReference& reference, std::span<const Gradient
       for (int x = 1; x < inverse_depth.cols - 1; ++x) {
         const double q = inverse_depth(y, x);
         if (!(q > 0.0) || gradient.ptr<float>(y)[4 * x + 3] < least) continue;
-        points.push_back(make_point(reference.cameras[level], gradient, {x, y}, q, options.projected_sigma * q, c2));
+        points.push_back(make_point(reference.cameras[level], gradient, {x, y}, q, c2));
       }
     }
   }

@@ -14,14 +14,13 @@ namespace odosplat {
 
 /// One pixel of a host image with its place in space and all that alignment needs of it; one cache line.
 struct alignas(64) ReferencePoint {
-  float x, y, z;        // [m] in the host's frame
-  float intensity;      // [grey]
-  float weight;         // 0..1, smaller where the gradient is strong (DSO's gradient-dependent weight)
-  float u, v;           // [px] of its level
-  float inverse_sigma;  // [m] 1 / standard deviation of inverse depth
+  float x, y, z;    // [m] in the host's frame
+  float intensity;  // [grey]
+  float weight;     // 0..1, smaller where the gradient is strong (DSO's gradient-dependent weight)
+  float u, v;       // [px] of its level
   /// d I_host(pi(exp(xi) p)) / d xi at xi = 0 (six values: translation [grey/m], rotation [grey/rad]), then -I_host
-  /// and -1: derivatives of the residual by log gain and by offset.
-  float jacobian[8];
+  /// and -1: derivatives of the residual by log gain and by offset. Read as one vector of eight.
+  alignas(32) float jacobian[8];
 };
 
 /// What a frame is aligned to: pixels of a host image on every pyramid level. The host is a keyframe or a rendered
@@ -30,7 +29,7 @@ struct TrackingReference {
   std::vector<Camera> cameras;                      // a level each
   std::vector<std::vector<ReferencePoint>> levels;  // level 0 is full size
   bool bare = false;                                // most of the image has weak gradients only, and they were taken
-  /// A lone word for "cannot be used": no level has points.
+  /// True if no level has points: it cannot be aligned to.
   bool empty() const { return levels.empty() || levels.front().empty(); }
 };
 
@@ -40,7 +39,6 @@ struct ReferenceOptions {
   int min_points = 250;                 // wanted on any level
   double gradient_weight = 50.0 / 255;  // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2)
   double min_gradient = 5.0 / 255;      // [grey/px] of a pixel whose depth comes from another keyframe's point
-  double projected_sigma = 0.05;        // relative standard deviation that is assumed of its inverse depth
   double bare_share = 0.5;              // of the image's regions with picked pixels, below which it is bare
   double bare_factor = 5.0;             // so many times the points are wanted of a bare image, as each says little
 

@@ -24,13 +24,11 @@ struct AnchorOptions {
   double strength = 8.0;     // factor of its weight: one rendered view stands against six keyframes, and its points'
                              // weights are below 1 where image and map agree less than well (agreement)
   // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2) of the rendered view's points in the window. Edges of a map
-  // are out of place by parts of a pixel, so that strong ones say less than in an image. ATE [mm] with 10, and with the
-  // images' 50: icl_office_kt3 1.8, 2.1; redkitchen 20, 22; the stand-ins icl_3 3.0, 4.2 and augm_1 5.8, 6.2; but
-  // aug_icl_livingroom1, whose map is sharp, 0.67, 0.55. The alignment before keeps the images': by small ones alone,
-  // a map of other colours was believed.
+  // are out of place by parts of a pixel, so that strong ones count less than in an image (docs/rules.md). The
+  // alignment before keeps the images' constant: by weak gradients alone, a map of other colours passes.
   double gradient_weight = 10.0 / 255;
   // Share of its points that must agree with the real image. The coarse map of a real room (20 dB) reaches 0.4 to 0.6
-  // and still holds the camera: with 0.6 it drifted by 7 cm (7-Scenes redkitchen), with 0.4 by 2.4.
+  // and still holds the camera (docs/rules.md).
   double min_inliers = 0.4;
   double min_coverage = 0.3;       // share of its points that must be in view
   double max_rmse = 12.0 / 255;    // [grey]
@@ -48,13 +46,10 @@ struct AnchorOptions {
 
   ToneOptions tone;  // of the image against the map's colours
   BlurOptions blur;  // the same
-  // Of the points in the window. ATE [mm] of icl_office_kt3, redkitchen, aug_icl_livingroom1 and the stand-ins icl_3
-  // and icl_1 with noise 1.5 and strength 8: 1.5, 17, 0.68, 2.2, 2.1; 4 and 4: 1.7, 19, 0.63, 2.4, 2.2. In the
-  // alignment before it gains nothing.
+  // Of the points in the window (docs/rules.md). In the alignment before it gains nothing.
   ResidualWeightOptions agreement;
   // Of the map's depth in the keyframe's own image: where image and map differ by more, something else may stand there.
-  // It acts by its square. Pieces of the office's map moved by 30 cm cost 2.4 to 3.1 times the error in one of three
-  // draws, with this 1.1; livingroom1, whose map is whole, 0.68 -> 0.54 mm.
+  // It acts by its square (docs/rules.md).
   ResidualWeightOptions depth_agreement{.noise = 4.0 / 255};
 
   void check() const;

@@ -10,20 +10,18 @@
 
 namespace odosplat {
 
-/// Measured: icl_office_kt3 there and back in maps of a part of it, frames 1 to 550 (two of these), 1 to 400 and 1 to
-/// 480; frames until the camera is within 5 mm again after each of its eight ways back: 50 52, 49 61, 41 55, 38 38
-/// without memory, 9 24, 11 11, 17 0, 18 0 with it. Below, how many of the eight take more than 30.
+/// Values were chosen by the number of frames until the camera is within 5 mm again when it returns (docs/rules.md).
 struct KeyframeMemoryOptions {
   bool enabled = true;
-  double map_share = 0.9;    // of the image with map depth, below which remembered keyframes are asked. With 0.7: 3
-  int max_links = 1;         // keyframes of more links to the map are not kept. 0: 3; 2: 4, as it believes drift
-  double likeness = 0.3;     // least of a keyframe that is asked; 0.4: 1
-  double known = 0.92;       // likeness of one that is kept, from which on a keyframe says nothing new
-  double parallax = 0.3;     // [rad] between a point's rays in both images at which it counts 1/e towards likeness
-  int views = 3;             // most that hold one image: each errs by some millimetres over 50 frames. 1: 2
-  double strength = 2.0;     // factor of their weight in the window, all together; shared out by squared likeness
-  double min_inliers = 0.6;  // of the alignment with a remembered keyframe
-  double min_correlation = 0.98;  // the same. 0.95: 0, but it drifts by up to 152 mm outside, and not by 87
+  double map_share = 0.9;         // of the image with map depth, below which remembered keyframes are asked
+  int max_links = 1;              // keyframes of more links to the map are not kept
+  double likeness = 0.3;          // least of a keyframe that is asked
+  double known = 0.92;            // likeness of one that is kept, from which on a keyframe says nothing new
+  double parallax = 0.3;          // [rad] between a point's rays in both images at which it counts 1/e towards likeness
+  int views = 3;                  // most that hold one image: each errs by some millimetres over 50 frames
+  double strength = 2.0;          // factor of their weight in the window, all together; shared out by squared likeness
+  double min_inliers = 0.6;       // of the alignment with a remembered keyframe
+  double min_correlation = 0.98;  // the same
   double max_rmse = 8.0 / 255;    // [grey] the same
   int capacity = 400;             // keyframes, of 0.3 MB at 320x240; the one not asked for longest goes first
 

@@ -19,7 +19,7 @@ struct BlurOptions {
   double least = 0.5;
   double most = 16.0;  // [px^2] of a variance
   // Cost with a blur over the cost without, above which it is not believed. Blur over 5 px: 0.85 to 0.98 where the
-  // map's own faults are larger. ATE [mm] of aug_icl_livingroom1 with that blur: without 1.12, with 0.9 to 0.99 0.79.
+  // map's own faults are larger (docs/rules.md).
   double explained = 0.97;
 
   void check() const;

@@ -78,7 +78,6 @@ PoseEvidence compare_with_map(const GrayImage& image, const GrayImage& rendered,
                               const PoseVerifierOptions& options) {
   PoseEvidence evidence;
   evidence.coverage = static_cast<double>(cv::countNonZero(depth)) / static_cast<double>(depth.total());
-  PairSums all;
   double sum = 0.0;
   for (int top = 0; top < image.rows; top += options.block) {
     for (int left = 0; left < image.cols; left += options.block) {
@@ -92,13 +91,11 @@ PoseEvidence compare_with_map(const GrayImage& image, const GrayImage& rendered,
         }
       }
       if (block.n < options.block_depth_share * options.block * options.block) continue;
-      all.add(block);
       if (std::max(block.spread_a(), block.spread_b()) < options.min_texture) continue;
       sum += block.correlation();
       ++evidence.blocks;
     }
   }
-  if (all.n > 0.0) evidence.correlation = all.correlation();
   if (evidence.blocks > 0) evidence.score = sum / evidence.blocks;
   return evidence;
 }

@@ -28,10 +28,9 @@ struct PoseVerifierOptions {
 
 /// What the squares that took no part in alignment say about a pose.
 struct PoseEvidence {
-  double coverage = 0.0;     // share of the image where the map has depth
-  double correlation = 0.0;  // -1..1, image against map over all held-back pixels with depth
-  double score = 0.0;        // -1..1, mean correlation within the held-back squares that say something
-  int blocks = 0;            // how many those are
+  double coverage = 0.0;  // share of the image where the map has depth
+  double score = 0.0;     // -1..1, mean correlation within the held-back squares that say something
+  int blocks = 0;         // how many those are
 };
 
 /// Whether pixel (u, v) [px] of full size is held back: squares as on a chessboard.

@@ -10,8 +10,7 @@
 namespace odosplat {
 
 struct MarginalizationOptions {
-  /// Measured with map points of no unknown depth (ATE in mm, with / without): icl_office_kt3 2.66 / 2.88,
-  /// aug_icl_livingroom1 1.35 / 1.32, 7scenes_redkitchen 28.0 / 28.0.
+  /// docs/rules.md has errors with and without.
   bool enabled = true;
   int min_agreeing = 2;  // keyframes that must agree with an estimated point for what it says to be kept
   double weight = 0.25;  // of what is kept: neighbouring residuals err alike, and stay linearised where they were

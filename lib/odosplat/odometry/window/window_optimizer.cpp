@@ -33,16 +33,6 @@ class ScaledSolver {
   Eigen::LDLT<Eigen::MatrixXd> solver_;
 };
 
-double rmse_of(const std::vector<PairSystem>& pairs) {
-  double squares = 0.0;
-  int n = 0;
-  for (const PairSystem& pair : pairs) {
-    squares += pair.squares;
-    n += pair.inliers;
-  }
-  return n > 0 ? std::sqrt(squares / n) : 0.0;
-}
-
 void write_back(const WindowState& state, const WindowSystem& system, Window& window) {
   for (std::size_t k = 0; k < window.keyframes.size(); ++k) {
     Keyframe& keyframe = *window.keyframes[k];
@@ -103,7 +93,6 @@ WindowSummary WindowOptimizer::optimize(Window& window, const Camera& camera) co
   const auto evaluate = [&](const WindowState& at) {
     WindowSystem system = evaluate_window(window, at, camera, options_.photometric);
     add_window_priors(window, at, priors, system);
-    ++summary.evaluations;
     return system;
   };
   WindowState state = window_state(window);
@@ -149,11 +138,6 @@ WindowSummary WindowOptimizer::optimize(Window& window, const Camera& camera) co
   }
 
   summary.final_cost = system.cost;
-  for (const PairSystem& pair : system.pairs) {
-    summary.residuals += pair.inliers;
-    summary.outliers += pair.outliers;
-  }
-  summary.rmse = rmse_of(system.pairs);
   return summary;
 }
 

@@ -11,13 +11,9 @@
 namespace odosplat {
 
 struct WindowSummary {
-  int iterations = 0;   // accepted steps
-  int evaluations = 0;  // of the whole window
+  int iterations = 0;  // accepted steps
   double initial_cost = 0.0;
   double final_cost = 0.0;
-  int residuals = 0;  // points seen in another keyframe, outliers not counted
-  int outliers = 0;
-  double rmse = 0.0;  // [grey] of the keyframes' mutual residuals
 };
 
 /// Photometric bundle adjustment of a window: poses and brightness of its keyframes, brightness of its anchors, and the
@@ -25,9 +21,7 @@ struct WindowSummary {
 /// anchor with its keyframe. Source: Engel, Koltun, Cremers 2018 (DSO); Levenberg-Marquardt with the offsets
 /// eliminated (Schur complement), so that 8 parameters a keyframe and 2 an anchor are left. Differs: a step that does
 /// not lower the cost is taken back; no null space is projected out. Same bits for any number of threads. Ceres is the
-/// tests' second opinion: it reaches the same optimum. It drove this adjustment before, on the same equations in double
-/// precision, and took 66 ms of CPU time a full window of seven keyframes on icl_office_kt3 (release build) where this
-/// takes 30 (pose_aware depth, 350 points a keyframe and 700 an anchor, one thread).
+/// tests' second opinion: it reaches the same optimum.
 class WindowOptimizer {
  public:
   explicit WindowOptimizer(const WindowOptimizerOptions& options);

@@ -26,9 +26,7 @@ DepthUse depth_use(const std::string& word);
 std::string to_string(DepthUse use);
 
 struct WindowPointOptions {
-  /// Measured (ATE in mm, anchored, icl_office_kt3 / aug_icl_livingroom1 / 7scenes_redkitchen): fixed 2.67 / 1.44
-  /// / 19.0, pose_aware 2.66 / 1.35 / 28.0, prior 2.71 / 1.20 / 47.9, pose_aware_prior 2.66 / 1.24 / 20.4, free 2.83
-  /// / 1.17 / 19.1, interval 3.04 / 1.17 / 31.4.
+  /// docs/rules.md compares the ways.
   DepthUse depth_use = DepthUse::pose_aware_prior;
   int points = 350;                     // wanted of a keyframe, for the window's adjustment
   int anchor_points = 700;              // wanted of a rendered view

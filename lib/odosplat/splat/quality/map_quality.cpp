@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/upper_median.hpp"
 
 namespace odosplat {
 
@@ -23,13 +23,6 @@ constexpr double short_share = 0.5;  // of the preset's iterations
 constexpr double most_odd_share = 0.2;
 constexpr double most_unseen_share = 0.9;
 
-double median(std::vector<double> values) {
-  if (values.empty()) return -1.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 template <typename Member>
 std::vector<double> known(const std::vector<ViewQuality>& views, Member member) {
   std::vector<double> values;
@@ -41,7 +34,7 @@ std::vector<double> known(const std::vector<ViewQuality>& views, Member member) 
 /// 1.4826 times the median distance from the median.
 double robust_deviation(std::vector<double> values, double middle) {
   for (double& value : values) value = std::abs(value - middle);
-  return 1.4826 * median(std::move(values));
+  return 1.4826 * upper_median(std::move(values), -1.0);
 }
 
 std::string printed(const char* format, double value) {
@@ -52,70 +45,16 @@ std::string printed(const char* format, double value) {
 
 }  // namespace
 
-const std::array<const char*, 6> direction_names{"+x", "-x", "+y", "-y", "+z", "-z"};
-
-std::vector<std::string> MapQuality::to_lines() const {
-  std::vector<std::string> lines{
-      "quality_verdict " + verdict,
-      "quality_psnr_db " + printed("%.2f", psnr_db),
-      "quality_depth_error_m " + printed("%.5f", depth_error_m),
-      "quality_depth_error_share " + printed("%.5f", depth_error_share),
-      "quality_images " + std::to_string(images),
-      "quality_odd_images " + std::to_string(odd_images),
-      "quality_color_inconsistency " + printed("%.3f", consistency),
-      "quality_unseen_share " + printed("%.4f", coverage.unseen_share),
-      "quality_images_a_point " + printed("%.0f", coverage.images_a_point),
-  };
-  for (std::size_t k = 0; k < direction_names.size(); ++k)
-    lines.push_back(std::string("quality_direction_") + direction_names[k] + " " +
-                    printed("%.3f", coverage.directions[k]));
-  return lines;
-}
-
-std::optional<MapQuality> MapQuality::from_lines(const std::vector<std::string>& lines) {
-  const std::string prefix = "quality_";
-  MapQuality quality;
-  bool found = false;
-  for (const std::string& line : lines) {
-    if (!line.starts_with(prefix)) continue;
-    const std::size_t blank = std::min(line.find(' '), line.size());
-    const std::string name = line.substr(prefix.size(), blank - prefix.size());
-    const std::string rest = blank < line.size() ? line.substr(blank + 1) : std::string();
-    if (name == "verdict") {
-      quality.verdict = rest;
-      quality.good = rest.starts_with("good");
-      found = true;
-      continue;
-    }
-    std::istringstream in(rest);
-    double value = 0.0;
-    if (!(in >> value) || !std::isfinite(value))
-      throw InputError(prefix + name, "must be a number, is \"" + rest + "\"");
-    if (name == "psnr_db") quality.psnr_db = value;
-    if (name == "depth_error_m") quality.depth_error_m = value;
-    if (name == "depth_error_share") quality.depth_error_share = value;
-    if (name == "images") quality.images = static_cast<int>(std::clamp(value, 0.0, 1e9));
-    if (name == "odd_images") quality.odd_images = static_cast<int>(std::clamp(value, 0.0, 1e9));
-    if (name == "color_inconsistency") quality.consistency = value;
-    if (name == "unseen_share") quality.coverage.unseen_share = value;
-    if (name == "images_a_point") quality.coverage.images_a_point = value;
-    for (std::size_t k = 0; k < direction_names.size(); ++k)
-      if (name == std::string("direction_") + direction_names[k]) quality.coverage.directions[k] = value;
-  }
-  if (!found) return std::nullopt;
-  return quality;
-}
-
 void mark_odd(std::vector<ViewQuality>& views) {
   constexpr double deviations = 5.0;
   constexpr double least_fall_db = 4.0;
   constexpr double least_factor = 3.0;
   std::vector<double> psnr;
   for (const ViewQuality& view : views) psnr.push_back(view.psnr_db);
-  const double usual_psnr = median(psnr);
+  const double usual_psnr = upper_median(psnr, -1.0);
   const double fall = std::max(least_fall_db, deviations * robust_deviation(psnr, usual_psnr));
   const std::vector<double> depth = known(views, &ViewQuality::depth_error_share);
-  const double usual_depth = median(depth);
+  const double usual_depth = upper_median(depth, -1.0);
   const double most_depth =
       std::max(least_factor * usual_depth, usual_depth + deviations * robust_deviation(depth, usual_depth));
   for (ViewQuality& view : views)
@@ -172,9 +111,9 @@ MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage&
   MapQuality q;
   std::vector<double> psnr;
   for (const ViewQuality& view : views) psnr.push_back(view.psnr_db);
-  q.psnr_db = median(psnr);
-  q.depth_error_m = median(known(views, &ViewQuality::depth_error_m));
-  q.depth_error_share = median(known(views, &ViewQuality::depth_error_share));
+  q.psnr_db = upper_median(psnr, -1.0);
+  q.depth_error_m = upper_median(known(views, &ViewQuality::depth_error_m), -1.0);
+  q.depth_error_share = upper_median(known(views, &ViewQuality::depth_error_share), -1.0);
   q.images = static_cast<int>(views.size());
   q.odd_images =
       static_cast<int>(std::count_if(views.begin(), views.end(), [](const ViewQuality& v) { return v.odd; }));

@@ -2,15 +2,14 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/splat/gaussians.hpp"
 #include "odosplat/splat/quality/color_consistency.hpp"
+#include "odosplat/splat/quality/map_verdict.hpp"
 #include "odosplat/splat/raster/rasterizer.hpp"
 #include "odosplat/splat/train/exposures.hpp"
 #include "odosplat/splat/train/training_targets.hpp"
@@ -26,15 +25,6 @@ struct ViewQuality {
   bool odd = false;                 // disagrees with the rest (mark_odd)
 };
 
-/// What the images show of a cloud.
-struct CloudCoverage {
-  double unseen_share = 0.0;    // of the points: in no image, or hidden in all
-  double images_a_point = 0.0;  // median over the points that are seen
-  // Share of the directions around +x, -x, +y, -y, +z, -z of the world (a sixth of the sphere each) that an image
-  // looks in, 0..1.
-  std::array<double, 6> directions{};
-};
-
 /// How the training went that made a map.
 struct TrainingEvidence {
   int iterations = -1;        // that were done, negative: unknown
@@ -43,27 +33,6 @@ struct TrainingEvidence {
   std::size_t points = 0;     // of the cloud
   std::size_t budget = 0;     // most Gaussians that the user asked for, 0: no such limit
 };
-
-/// What a map is worth, in the words and figures of its header.
-struct MapQuality {
-  bool good = false;
-  std::string verdict;              // one line: "good: ...", "not judged: ..." or "doubtful: ...; likely cause: ..."
-  double psnr_db = 0.0;             // median over the training images
-  double depth_error_m = -1.0;      // likewise, negative: unknown
-  double depth_error_share = -1.0;  // likewise
-  int images = 0;
-  int odd_images = 0;
-  double consistency = 1.0;  // ColorConsistency::Value::unexplained of the geometry as given, negative: unknown
-  CloudCoverage coverage;
-
-  /// Lines "quality_NAME value" for the header of a map; and back, none where there are none. from_lines throws
-  /// InputError for values that are no numbers. Other lines are passed over.
-  std::vector<std::string> to_lines() const;
-  static std::optional<MapQuality> from_lines(const std::vector<std::string>& lines);
-};
-
-/// Names of CloudCoverage::directions, in their order.
-extern const std::array<const char*, 6> direction_names;
 
 /// At most 200 of the views and 100 000 of the points, evenly spread, stand for all. Uses all threads; deterministic.
 CloudCoverage cloud_coverage(const PointCloud& cloud, const TrainingViews& views);

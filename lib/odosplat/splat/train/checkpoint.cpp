@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "odosplat/core/checksum.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
@@ -15,9 +16,9 @@ namespace {
 constexpr std::string_view title = "odosplat checkpoint 1\n";
 
 std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t h = 0xcbf29ce484222325ULL;
-  for (const char c : bytes) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  return h;
+  Checksum sum;
+  sum.add(bytes);
+  return sum.value();
 }
 
 std::string number(std::uint64_t value) {

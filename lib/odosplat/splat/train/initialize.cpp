@@ -14,14 +14,14 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/core/random.hpp"
+#include "odosplat/core/upper_median.hpp"
 
 namespace odosplat {
 
 namespace {
 
-constexpr float sh_constant = 0.28209479F;  // value of the basis of degree 0
-constexpr float lone_point_scale = 0.01F;   // [m] size where there is no neighbour to tell it
-constexpr float smallest_scale = 0.05F;     // of the median size: points that coincide
+constexpr float lone_point_scale = 0.01F;  // [m] size where there is no neighbour to tell it
+constexpr float smallest_scale = 0.05F;    // of the median size: points that coincide
 
 /// `keep` of the points, chosen at random without replacement, in their old order.
 PointCloud choose(const PointCloud& cloud, std::size_t keep, Random& random) {
@@ -48,10 +48,8 @@ void check_finite(const PointCloud& cloud) {
 /// Size of every Gaussian [m], kept in a band around the median.
 std::vector<float> sizes(const PointCloud& cloud, const InitializeOptions& options) {
   std::vector<float> size = mean_neighbor_distances(cloud, options.scale_neighbors);
-  std::vector<float> sorted = size;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const float median = *middle > 0.0F ? *middle : lone_point_scale;
+  const float usual = upper_median(size);
+  const float median = usual > 0.0F ? usual : lone_point_scale;
   for (float& s : size)
     s = options.scale_factor * std::clamp(s, smallest_scale * median, options.largest_scale * median);
   return size;
@@ -141,11 +139,10 @@ double noise_left(const PointCloud& cloud, const PointCloud& smoothed, const Ini
   std::vector<float> moved(cloud.size());
   for (std::size_t i = 0; i < moved.size(); ++i)
     moved[i] = std::abs(smoothed.normals[i].dot(smoothed.points[i] - cloud.points[i]));
-  const auto middle = moved.begin() + static_cast<std::ptrdiff_t>(moved.size() / 2);
-  std::nth_element(moved.begin(), middle, moved.end());
   // 1.4826: from the median absolute value of a normal distribution to its standard deviation. 0.76: share of the
   // neighbours that the weights of smooth() leave effective.
-  return 1.4826 * static_cast<double>(*middle) / std::sqrt(0.76 * (options.smoothing_neighbors + 1));
+  return 1.4826 * static_cast<double>(upper_median(std::move(moved))) /
+         std::sqrt(0.76 * (options.smoothing_neighbors + 1));
 }
 
 Gaussians gaussians_from_cloud(const PointCloud& input, const InitializeOptions& options) {

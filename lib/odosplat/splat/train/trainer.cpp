@@ -10,9 +10,11 @@
 #include <sstream>
 
 #include "kernels/constants.h"
+#include "odosplat/core/checksum.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/random.hpp"
+#include "odosplat/core/upper_median.hpp"
 #include "odosplat/splat/train/view_lengths.hpp"
 
 namespace odosplat {
@@ -25,9 +27,7 @@ double median_size(const Gaussians& gaussians) {
   for (std::size_t i = 0; i < size.size(); ++i)
     size[i] = *std::max_element(gaussians.log_scales.begin() + static_cast<std::ptrdiff_t>(3 * i),
                                 gaussians.log_scales.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  return std::exp(static_cast<double>(*middle));
+  return std::exp(static_cast<double>(upper_median(std::move(size))));
 }
 
 double log_linear(double first, double last, double share) { return first * std::pow(last / first, share); }
@@ -55,32 +55,25 @@ double mean_of_known(const std::vector<double>& values) {
   return known > 0 ? sum / known : 0.0;
 }
 
-/// FNV-1a over bytes, going on from `hash`.
-std::uint64_t hashed(std::uint64_t hash, const void* data, std::size_t size) {
-  const auto* bytes = static_cast<const unsigned char*>(data);
-  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001b3ULL;
-  return hash;
-}
-
 std::string checksum_of_start(const Gaussians& initial, const TrainingViews& views) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  Checksum sum;
   for (const auto* part :
        {&initial.positions, &initial.log_scales, &initial.rotations, &initial.opacity_logits, &initial.sh})
-    hash = hashed(hash, part->data(), part->size() * sizeof(float));
+    sum.add(part->data(), part->size() * sizeof(float));
   for (int i = 0; i < views.count(); ++i) {
     const Eigen::Matrix4d pose = views.T_world_camera(i).matrix();
     const Camera camera = views.camera(i);
-    hash = hashed(hash, pose.data(), sizeof(double) * 16);
+    sum.add(pose.data(), sizeof(double) * 16);
     const double numbers[6] = {static_cast<double>(camera.width),
                                static_cast<double>(camera.height),
                                camera.fx,
                                camera.fy,
                                camera.cx,
                                camera.cy};
-    hash = hashed(hash, numbers, sizeof(numbers));
+    sum.add(numbers, sizeof(numbers));
   }
   std::ostringstream text;
-  text << views.count() << " views, " << initial.size() << " Gaussians, checksum " << std::hex << hash;
+  text << views.count() << " views, " << initial.size() << " Gaussians, checksum " << std::hex << sum.value();
   return text.str();
 }
 

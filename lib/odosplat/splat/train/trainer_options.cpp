@@ -100,9 +100,7 @@ std::vector<std::string> TrainerOptions::describe() const {
 TrainerOptions TrainerOptions::preset(const std::string& name, int views) {
   TrainerOptions options;
   if (name == "default") {
-    // Finer colours hold the camera better: with the cloud's Gaussians alone (2000 steps) tracking erred by 2.9 mm
-    // (icl_office_kt3), 1.3 (aug_icl_livingroom1) and 32 (7scenes_redkitchen), with these by 2.1, 0.9 and 19.
-    // 980 images (the stand-ins' living room): with 4000 steps tracking erred by 6.2 mm (augm_1), with 8000 by 4.8.
+    // Finer colours hold the camera better, and many images need more steps (docs/rules.md).
     constexpr int rounds = 8;
     options.iterations = std::max(4000, rounds * views);
     options.densify.method = DensifyMethod::split;

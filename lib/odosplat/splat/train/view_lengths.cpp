@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include "odosplat/splat/train/view_lengths.hpp"
+#include "odosplat/core/upper_median.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -36,10 +37,7 @@ double pixel_width(const Gaussians& gaussians, const TrainingViews& views) {
       widths.push_back(p_camera.z() / std::max(camera.fx, camera.fy));
     }
   }
-  if (widths.empty()) return 0.0;
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return *middle;
+  return upper_median(std::move(widths));
 }
 
 }  // namespace odosplat
