@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "apps/command/interrupt.hpp"
+#include "apps/command/number_flags.hpp"
 #include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/eval/statistics.hpp"
@@ -192,7 +193,7 @@ void add_confirm(CLI::App& app, apps::Common& common) {
   auto flags = std::make_shared<ConfirmFlags>();
   add_job_flags(command, flags->job);
   command->add_option("--other", flags->others, "sequences of other places, shown at this one's size");
-  command->add_option("--every", flags->every, "every n-th frame")->check(CLI::PositiveNumber);
+  apps::add_number(command, "--every", flags->every, {.least = 1, .most = 1000000}, "every n-th frame");
   command->final_callback([&common, flags] { run_confirm(common, *flags); });
 }
 

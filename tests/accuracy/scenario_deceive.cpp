@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "apps/command/number_flags.hpp"
 #include "apps/command/support.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/odometry/relocalise/place_index.hpp"
@@ -246,7 +247,7 @@ void add_deceive(CLI::App& app, apps::Common& common) {
   add_job_flags(command, flags->job);
   command->add_option("--other", flags->others, "sequences of other places, shown at this one's size");
   command->add_option("--only", flags->only, "deceptions whose name contains one of these (default: all)");
-  command->add_option("--length", flags->frames, "frames of each");
+  apps::add_number(command, "--length", flags->frames, {.least = 2, .most = 100000}, "frames of each");
   command->final_callback([&common, flags] { run_deceive(common, *flags); });
 }
 

@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "apps/command/number_flags.hpp"
 #include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
@@ -195,23 +196,31 @@ void add_disturb(CLI::App& app, apps::Common& common) {
   command->add_option("--only", flags->only, "which of noise, gamma, exposure, blur, rolling, deleted, moved, start")
       ->delimiter(',')
       ->check(CLI::IsMember(flags->only));
-  command->add_option("--noise", flags->noise, "standard deviation of the noise [grey levels of 255]");
-  command->add_option("--gamma", flags->gamma, "exponent of the brightness")->check(CLI::PositiveNumber);
-  command->add_option("--exposure", flags->exposure, "factor of an exposure step: 1, F, 1, 1/F and so on");
-  command->add_option("--exposure-seconds", flags->exposure_seconds, "time between steps [s]")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--blur", flags->blur_px, "length of the motion blur [px]")->check(CLI::PositiveNumber);
-  command->add_option("--rolling", flags->rolling, "amplitude of the rolling gain");
-  command->add_option("--rolling-seconds", flags->rolling_seconds, "time in which it goes once over the image [s]")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--deleted", flags->deleted, "share of the map that is deleted")->check(CLI::Range(0.0, 0.95));
-  command->add_option("--deleted-radius", flags->deleted_radius, "radius of the balls deleted [m]");
-  command->add_option("--pieces", flags->moved.pieces, "pieces of the map moved");
-  command->add_option("--piece-edge", flags->moved.edge, "edge of the cubes that cut them out [m]");
-  command->add_option("--piece-distance", flags->moved.distance, "how far each is moved [m]");
-  command->add_option("--starts", flags->starts, "wrong start poses");
-  command->add_option("--start-distance", flags->start_m, "how far off the start is [m]");
-  command->add_option("--start-angle", flags->start_deg, "how far it is turned [deg]");
+  apps::add_number(command, "--noise", flags->noise, {.least = 0.0, .most = 255.0},
+                   "standard deviation of the noise [grey levels of 255]");
+  apps::add_number(command, "--gamma", flags->gamma, {.least = 0.1, .most = 10.0}, "exponent of the brightness");
+  apps::add_number(command, "--exposure", flags->exposure, {.least = 0.1, .most = 10.0},
+                   "factor of an exposure step: 1, F, 1, 1/F and so on");
+  apps::add_number(command, "--exposure-seconds", flags->exposure_seconds, {.least = 0.01, .most = 1000.0},
+                   "time between steps [s]");
+  apps::add_number(command, "--blur", flags->blur_px, {.least = 0.1, .most = 100.0}, "length of the motion blur [px]");
+  apps::add_number(command, "--rolling", flags->rolling, {.least = 0.0, .most = 0.9}, "amplitude of the rolling gain");
+  apps::add_number(command, "--rolling-seconds", flags->rolling_seconds, {.least = 0.01, .most = 1000.0},
+                   "time in which it goes once over the image [s]");
+  apps::add_number(command, "--deleted", flags->deleted, {.least = 0.0, .most = 0.95},
+                   "share of the map that is deleted");
+  apps::add_number(command, "--deleted-radius", flags->deleted_radius, {.least = 0.01, .most = 100.0},
+                   "radius of the balls deleted [m]");
+  apps::add_number(command, "--pieces", flags->moved.pieces, {.least = 0, .most = 1000}, "pieces of the map moved");
+  apps::add_number(command, "--piece-edge", flags->moved.edge, {.least = 0.01, .most = 100.0},
+                   "edge of the cubes that cut them out [m]");
+  apps::add_number(command, "--piece-distance", flags->moved.distance, {.least = 0.0, .most = 100.0},
+                   "how far each is moved [m]");
+  apps::add_number(command, "--starts", flags->starts, {.least = 0, .most = 1000}, "wrong start poses");
+  apps::add_number(command, "--start-distance", flags->start_m, {.least = 0.0, .most = 100.0},
+                   "how far off the start is [m]");
+  apps::add_number(command, "--start-angle", flags->start_deg, {.least = 0.0, .most = 180.0},
+                   "how far it is turned [deg]");
   command->final_callback([&common, flags] { run_disturb(common, *flags); });
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/command/number_flags.hpp"
 #include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/odometry/relocalise/place_index.hpp"
@@ -110,11 +111,14 @@ void add_kidnap(CLI::App& app, apps::Common& common) {
   auto flags = std::make_shared<KidnapFlags>();
   add_job_flags(command, flags->job);
   command->add_option("--other", flags->other, "sequence whose first images are cut in, at this one's size");
-  command->add_option("--cut", flags->cut, "frames cut out; these numbers are a third of the sequence at most");
-  command->add_option("--black", flags->black, "frames that are black");
-  command->add_option("--one-colour", flags->hand, "frames of one colour, as with a hand over the lens");
-  command->add_option("--foreign", flags->foreign, "frames of --other");
-  command->add_option("--bar", flags->bar_mm, "error that counts as recovered [mm]");
+  apps::add_number(command, "--cut", flags->cut, {.least = 0, .most = 100000},
+                   "frames cut out; these numbers are a third of the sequence at most");
+  apps::add_number(command, "--black", flags->black, {.least = 0, .most = 100000}, "frames that are black");
+  apps::add_number(command, "--one-colour", flags->hand, {.least = 0, .most = 100000},
+                   "frames of one colour, as with a hand over the lens");
+  apps::add_number(command, "--foreign", flags->foreign, {.least = 0, .most = 100000}, "frames of --other");
+  apps::add_number(command, "--bar", flags->bar_mm, {.least = 0.01, .most = 10000.0},
+                   "error that counts as recovered [mm]");
   command->final_callback([&common, flags] { run_kidnap(common, *flags); });
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/command/interrupt.hpp"
+#include "apps/command/number_flags.hpp"
 #include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
 #include "tests/accuracy/output.hpp"
@@ -116,9 +117,12 @@ void add_leave_map(CLI::App& app, apps::Common& common) {
       "for 15 frames (-1: never; at most 30 pass), largest live error from then on");
   auto flags = std::make_shared<LeaveMapFlags>();
   add_job_flags(command, flags->job);
-  command->add_option("--outside", flags->outside, "outside where less than this share of the true view has map depth");
-  command->add_option("--inside", flags->inside, "re-entered where at least this share has");
-  command->add_option("--bar", flags->bar_mm, "error that counts as back in the map [mm]");
+  apps::add_number(command, "--outside", flags->outside, {.least = 0.0, .most = 1.0},
+                   "outside where less than this share of the true view has map depth");
+  apps::add_number(command, "--inside", flags->inside, {.least = 0.0, .most = 1.0},
+                   "re-entered where at least this share has");
+  apps::add_number(command, "--bar", flags->bar_mm, {.least = 0.01, .most = 10000.0},
+                   "error that counts as back in the map [mm]");
   command->final_callback([&common, flags] { run_leave_map(common, *flags); });
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "apps/command/number_flags.hpp"
 #include "apps/command/support.hpp"
 #include "tests/accuracy/output.hpp"
 #include "tests/accuracy/scenarios.hpp"
@@ -55,7 +56,7 @@ void add_long_path(CLI::App& app, apps::Common& common) {
   auto job = std::make_shared<Job>();
   auto passes = std::make_shared<int>(10);
   add_job_flags(command, *job);
-  command->add_option("--passes", *passes, "how often through the sequence")->check(CLI::PositiveNumber);
+  apps::add_number(command, "--passes", *passes, {.least = 1, .most = 10000}, "how often through the sequence");
   command->final_callback([&common, job, passes] { run_long_path(common, *job, *passes); });
 }
 

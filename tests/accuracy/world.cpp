@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "apps/command/number_flags.hpp"
 #include "apps/input/places.hpp"
 #include "odosplat/core/error.hpp"
 
@@ -17,7 +18,7 @@ void add_job_flags(CLI::App* command, Job& job) {
   command->add_option("--anchor", job.track.anchor, "on or off (default: as the method has it)");
   command->add_option("--places", job.track.places, apps::places_help);
   command->add_flag("!--no-relocalise", job.track.relocalise, "lost frames are not looked up in the map");
-  command->add_option("--seed", job.track.seed, "seed of the pixel selector and of every disturbance");
+  apps::add_number(command, "--seed", job.track.seed, {}, "seed of the pixel selector and of every disturbance");
   command->add_option("--frames", job.frames, apps::frames_help);
   command->add_option("--json", job.json, "the rows of the table, to this file");
   command->add_option("--trace", job.trace, "every frame of every run with its error, to this file (CSV)");

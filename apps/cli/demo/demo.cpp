@@ -138,7 +138,9 @@ void run(const Common& common, const std::string& out, const DemoOptions& option
   train.out = out + "/map.ply";
   train.report = out + "/training.json";
   train.iterations = options.iterations;
-  const TrainingReport report = run_training(common, train).training;
+  const TrainOutcome trained = run_training(common, train);
+  if (!trained.quality.good) log_warning(train.out + ": " + trained.quality.verdict);
+  const TrainingReport& report = trained.training;
   std::vector<Row> rows;
   for (const char* method : {"gaussian", "interpolation"}) rows.push_back(run_method(common, out, world, method));
 

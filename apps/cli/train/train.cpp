@@ -236,7 +236,6 @@ TrainOutcome run_training(const Common& common, const TrainJob& job) {
   print_profile(common, device);
   name_odd_images(trained.views, views);
   const MapQuality& quality = *trained.map.header.quality;
-  if (!quality.good) log_warning(job.out + ": " + quality.verdict);
   return {trained.training, quality};
 }
 
