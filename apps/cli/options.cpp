@@ -16,10 +16,13 @@ namespace {
 std::string options_json() {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const PublicOption& option : public_options()) {
+    const auto number = [&option](double value) {
+      return option.is_whole() ? nlohmann::ordered_json(static_cast<int>(value)) : nlohmann::ordered_json(value);
+    };
     rows.push_back({{"name", option.name},
-                    {"default", std::stod(option.default_text())},
-                    {"least", option.least},
-                    {"most", option.most},
+                    {"default", number(std::stod(option.default_text()))},
+                    {"least", number(option.least)},
+                    {"most", number(option.most)},
                     {"whole", option.is_whole()},
                     {"unit", option.unit},
                     {"meaning", option.meaning}});

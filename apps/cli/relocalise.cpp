@@ -199,7 +199,7 @@ void print_found(const Summary& s) {
 }
 
 void write_report(const std::string& file, const Summary& s, const std::vector<Row>& rows, const Sequence& sequence,
-                  std::size_t places, double index_s) {
+                  std::size_t places, double index_s, const OptionValues& options) {
   const auto if_judged = [&](int count) { return s.judged > 0 ? nlohmann::ordered_json(count) : nullptr; };
   nlohmann::ordered_json json{{"views", s.views},
                               {"found", s.found},
@@ -212,6 +212,7 @@ void write_report(const std::string& file, const Summary& s, const std::vector<R
                               {"seconds", json_of(s.seconds)},
                               {"cpu_seconds", json_of(s.cpu_seconds)},
                               {"rows", nlohmann::ordered_json::array()}};
+  for (const auto& [name, value] : options.items()) json["options"][name] = std::stod(value);
   for (const Row& row : rows) json["rows"].push_back(json_of(row, sequence));
   write_file_atomically(file, json_text(json));
 }
@@ -253,7 +254,7 @@ void run(const Common& common, const RelocaliseJob& job) {
         percentile(s.seconds, 50.0), percentile(s.seconds, 95.0), s.seconds.back(), percentile(s.cpu_seconds, 50.0),
         percentile(s.cpu_seconds, 95.0), s.cpu_seconds.back());
   if (!job.out.empty()) write_trajectory(job.out, found_poses(rows, sequence));
-  if (!job.json.empty()) write_report(job.json, s, rows, sequence, kept, index_s);
+  if (!job.json.empty()) write_report(job.json, s, rows, sequence, kept, index_s, job.options);
   if (s.found == 0) {
     throw NoResult("none of " + std::to_string(s.views) +
                    " images found: the map does not show what they show, or the camera is wrong");
@@ -283,7 +284,7 @@ void add_relocalise(CLI::App& app, Common& common) {
                       "report to write (JSON): of every frame found or not, T_world_camera (tx ty tz qx qy qz qw), "
                       "score, and the error where the true pose is known");
   auto settings = std::make_shared<std::vector<std::string>>();
-  const std::vector<std::string> groups{"relocalise"};
+  const std::vector<std::string> groups{"relocaliser"};
   add_set_flag(command, *settings, groups);
   command->final_callback([&common, job, settings, groups] {
     job->options = OptionValues(*settings, groups);

@@ -222,8 +222,10 @@ CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, co
       ->type_name("LEVEL")
       ->group(common_group);
   command
-      ->add_option("--config", common.config,
-                   "TOML file of flags, a line each: flag = value; flags on the command line win")
+      ->add_option(
+          "--config", common.config,
+          "TOML file of flags, a line each: flag = value, and below them options as --set takes them: NAME = VALUE, or "
+          "tables; the command line wins")
       ->type_name("FILE")
       ->group(common_group);
   command->parse_complete_callback([&common, command] {

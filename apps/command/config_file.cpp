@@ -39,10 +39,12 @@ class Reader {
   std::vector<ConfigEntry> entries() {
     std::vector<ConfigEntry> entries;
     std::set<std::string> seen;
+    std::set<std::string> tables;
     for (skip_lines(); !text_.empty(); skip_lines()) {
       if (next() == '[') {
         table_ = table();
-        if (!seen.insert(table_).second) fail("the table [" + table_ + "] is given twice");
+        if (!tables.insert(table_).second) fail("the table [" + table_ + "] is given twice");
+        if (seen.count(table_) > 0) fail(table_ + " is a value above, it cannot be a table too");
         continue;
       }
       entries.push_back(entry());
@@ -156,6 +158,7 @@ class Reader {
       take();
     }
     if (word == "true" || word == "false") return word;
+    if (word.starts_with("{")) fail("inline tables are not read");
     const bool number =
         !word.empty() && std::string_view("+-.0123456789in").find(word[0]) != std::string_view::npos &&
         std::all_of(word.begin(), word.end(), [](char c) { return is_key_character(c) || c == '.' || c == '+'; });
@@ -254,6 +257,8 @@ std::vector<ConfigEntry> parse_config(const std::string& file, std::string_view 
 void apply_config(CLI::App& command, const std::vector<std::string>& words, const std::string& file) {
   for (ConfigEntry entry : parse_config(file, read_file(file))) {
     const std::string line = "line " + std::to_string(entry.line);
+    if (entry.key == "set") throw InputError(file, line, "set is for the command line; write NAME = VALUE");
+    const std::string written = entry.key;
     if (entry.key.find('.') != std::string::npos) {  // an option of the library, which --set takes
       if (set_by(words, entry.key)) continue;
       if (command.get_option_no_throw("--set") == nullptr) {
@@ -274,7 +279,12 @@ void apply_config(CLI::App& command, const std::vector<std::string>& words, cons
     try {
       set_option(*option, entry);
     } catch (const CLI::ParseError& e) {
-      throw InputError(file, line, e.what());
+      if (written == entry.key) throw InputError(file, line, e.what());
+      const std::string last = written.substr(written.rfind('.') + 1);
+      const bool is_flag = command.get_option_no_throw("--" + last) != nullptr;
+      std::string fault = e.what();
+      if (fault.starts_with("--set: ")) fault = fault.substr(7);
+      throw InputError(file, line, fault + (is_flag ? "; flags stand above the first [table]" : ""));
     }
   }
 }

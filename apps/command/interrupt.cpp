@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "apps/command/exit_status.hpp"
 #include "odosplat/core/error.hpp"
 
 namespace odosplat::apps {
@@ -20,8 +21,6 @@ namespace {
 std::atomic<bool> interrupt_flag{false};
 std::atomic<int> savers{0};
 sem_t interrupt_came;
-
-constexpr int exit_interrupted = 130;
 
 extern "C" void on_interrupt(int signal) {
   if (!interrupt_flag.exchange(true)) {

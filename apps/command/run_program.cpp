@@ -12,6 +12,7 @@
 #include <string>
 
 #include "apps/command/command_line.hpp"
+#include "apps/command/exit_status.hpp"
 #include "apps/command/interrupt.hpp"
 #include "apps/command/no_result.hpp"
 #include "apps/command/output.hpp"
@@ -21,11 +22,6 @@
 
 namespace odosplat::apps {
 namespace {
-
-constexpr int exit_internal = 1;
-constexpr int exit_bad_input = 2;
-constexpr int exit_no_result = 3;
-constexpr int exit_interrupted = 130;
 
 int fail(int code, const std::string& what) {
   std::fprintf(stderr, "odosplat: %s\n", what.c_str());

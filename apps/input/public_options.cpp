@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <type_traits>
 
 #include "apps/command/nearest_name.hpp"
 #include "odosplat/core/error.hpp"
@@ -17,15 +18,19 @@ namespace {
 using Options = TunedOptions;
 using Field = std::variant<int*, float*, double*>;
 
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", value);
-  return text;
+// As short as the value of that type can be read back from.
+template <typename T>
+std::string text_of(T value) {
+  char text[40];
+  const auto end = std::to_chars(text, text + sizeof(text), value).ptr;
+  return {text, end};
 }
 
-std::string range_text(const PublicOption& option) {
-  return number_text(option.least) + ".." + number_text(option.most);
+std::string text_of(const Field& field) {
+  return std::visit([](const auto* value) { return text_of(*value); }, field);
 }
+
+std::string range_text(const PublicOption& option) { return text_of(option.least) + ".." + text_of(option.most); }
 
 const PublicOption& option_of(const std::string& name) {
   std::vector<std::string> names;
@@ -40,7 +45,8 @@ const PublicOption& option_of(const std::string& name) {
 double value_of(const PublicOption& option, const std::string& text) {
   double value = 0.0;
   const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  const char* begin = text.starts_with("+") && !text.starts_with("+-") ? text.data() + 1 : text.data();
+  const auto [rest, error] = std::from_chars(begin, end, value);
   if (error != std::errc() || rest != end || !std::isfinite(value)) {
     throw InputError("--set", option.name + ": must be a number, is `" + text + "`");
   }
@@ -69,7 +75,8 @@ const std::vector<PublicOption>& public_options() {
        [](Options& o) -> Field { return &o.odometry.optimizer.max_iterations; }},
       {"odometry.window.points", "", 50, 5000, "points of each keyframe in the window's adjustment",
        [](Options& o) -> Field { return &o.odometry.keyframe.window_points.points; }},
-      {"odometry.window.anchor_points", "", 50, 10000, "points by which a keyframe is aligned with the rendered map",
+      {"odometry.window.anchor_points", "", 50, 10000,
+       "points by which a keyframe is aligned with the rendered map (with --anchor on)",
        [](Options& o) -> Field { return &o.odometry.keyframe.window_points.anchor_points; }},
       {"odometry.keyframe.flow", "share of width + height", 0.005, 0.5,
        "image motion, of translation alone, at which a new keyframe is due",
@@ -79,7 +86,8 @@ const std::vector<PublicOption>& public_options() {
        [](Options& o) -> Field { return &o.odometry.policy.min_coverage; }},
       {"odometry.align.iterations", "", 1, 200, "steps of a frame's alignment on each level of its pyramid",
        [](Options& o) -> Field { return &o.odometry.aligner.max_iterations; }},
-      {"odometry.align.noise", "grey, 0..1", 0.001, 0.2, "standard deviation of a residual: scales the covariance",
+      {"odometry.align.noise", "grey, 0..1", 0.001, 0.2,
+       "standard deviation of a residual, against the priors of pose and brightness and in the covariance",
        [](Options& o) -> Field { return &o.odometry.aligner.noise; }},
       {"odometry.accept.inliers", "", 0.05, 0.95, "share of points that must agree for a frame to count as tracked",
        [](Options& o) -> Field { return &o.odometry.accept.min_inliers; }},
@@ -87,9 +95,10 @@ const std::vector<PublicOption>& public_options() {
        "correlation with the last keyframe below which a frame does not count as tracked",
        [](Options& o) -> Field { return &o.odometry.accept.min_correlation; }},
       {"odometry.confirm.confirmed", "", 0.5, 0.999999,
-       "probability that the map is seen from which a pose counts as confirmed",
+       "probability that the map is seen, from which a pose counts as confirmed (method gaussian)",
        [](Options& o) -> Field { return &o.odometry.confirmation.confirmed; }},
-      {"odometry.confirm.contradicted", "", 0.0, 0.5, "the same, below which the map contradicts a pose",
+      {"odometry.confirm.contradicted", "", 0.0, 0.5,
+       "the same, below which the map contradicts a pose (method gaussian)",
        [](Options& o) -> Field { return &o.odometry.confirmation.contradicted; }},
       {"odometry.confirm.frames", "", 0, 1000,
        "frames without a word of the map after which a pose no longer counts as in the map",
@@ -107,25 +116,27 @@ const std::vector<PublicOption>& public_options() {
       {"odometry.covariance.keyframe", "", 0.01, 10000.0, "factor of the covariance of a keyframe in the window",
        [](Options& o) -> Field { return &o.odometry.keyframe_covariance_factor; }},
       {"odometry.prefetch", "images", 0.0, 30.0,
-       "with --realtime, the map is rendered this many images ahead of the next keyframe",
+       "with --realtime, the map is rendered at most so many images ahead of the next keyframe",
        [](Options& o) -> Field { return &o.odometry.prefetch_images; }},
-      {"relocalise.candidates", "", 1, 1000, "places that are tried for an image by thumbnail, and as many by corners",
+      {"relocaliser.candidates", "", 1, 1000, "places that are tried for an image by thumbnail, and as many by corners",
        [](Options& o) -> Field { return &o.relocaliser.candidates; }},
-      {"relocalise.finalists", "", 1, 1000, "poses that are rendered again and verified",
+      {"relocaliser.finalists", "", 1, 1000, "poses that are rendered again and verified",
        [](Options& o) -> Field { return &o.relocaliser.finalists; }},
-      {"relocalise.score", "", 0.1, 0.99, "score of the verification below which a pose is refused",
+      {"relocaliser.score", "", 0.1, 0.99, "score of the verification below which a pose is refused",
        [](Options& o) -> Field { return &o.relocaliser.verifier.min_score; }},
-      {"relocalise.sigma", "m", 0.001, 10.0, "standard deviation of the position above which a pose is refused",
+      {"relocaliser.sigma", "m", 0.001, 10.0, "standard deviation of the position above which a pose is refused",
        [](Options& o) -> Field { return &o.relocaliser.max_position_sigma; }},
       {"train.ssim_weight", "", 0.0, 1.0, "share of 1 - SSIM in the loss of an image",
        [](Options& o) -> Field { return &o.train.loss.ssim_weight; }},
-      {"train.depth_cut", "", 0.002, 1.0, "relative error of depth beyond which another surface is meant",
+      {"train.depth_cut", "", 0.002, 1.0,
+       "relative error of depth beyond which another surface is meant (where depth is trained on)",
        [](Options& o) -> Field { return &o.train.depth.cut; }},
       {"train.coarse_levels", "", 0, 4, "levels of half size that training starts on",
        [](Options& o) -> Field { return &o.train.coarse_levels; }},
       {"train.color_rate", "", 1e-6, 1.0, "Adam's rate of colours at the start",
        [](Options& o) -> Field { return &o.train.color_rate; }},
-      {"train.densify.until", "", 0.0, 1.0, "share of the steps after which no Gaussian is split or added",
+      {"train.densify.until", "", 0.0, 1.0,
+       "share of the steps after which no Gaussian is split or added (unless --densify none)",
        [](Options& o) -> Field { return &o.train.densify.until_share; }},
       {"train.start.size", "", 0.05, 5.0, "size of a Gaussian at the start over the distance of its neighbours",
        [](Options& o) -> Field { return &o.start.scale_factor; }},
@@ -144,14 +155,15 @@ std::string PublicOption::default_text() const {
   TunedOptions options;
   options.train = TrainerOptions::preset("default");
   options.start = InitializeOptions::preset("default");
-  return std::visit([](const auto* value) { return number_text(*value); }, field(options));
+  return text_of(field(options));
 }
 
 OptionValues::OptionValues(const std::vector<std::string>& settings, const std::vector<std::string>& groups) {
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) throw InputError("--set", "must be NAME=VALUE, is " + setting);
-    const PublicOption& option = option_of(setting.substr(0, equals));
+    const std::string name = setting.substr(0, equals);
+    const PublicOption& option = option_of(name);
     if (std::find(groups.begin(), groups.end(), option.group()) == groups.end()) {
       throw InputError("--set", option.name + " is no option of this command, which has " + group_words(groups));
     }
@@ -164,8 +176,16 @@ OptionValues::OptionValues(const std::vector<std::string>& settings, const std::
 
 std::vector<std::pair<std::string, std::string>> OptionValues::items() const {
   std::vector<std::pair<std::string, std::string>> items;
-  for (const auto& [option, value] : values_) items.emplace_back(option->name, number_text(value));
+  for (const auto& [option, value] : values_) {
+    TunedOptions options;
+    apply_group(option->group(), options);
+    items.emplace_back(option->name, text_of(option->field(options)));
+  }
   return items;
+}
+
+bool OptionValues::has(const std::string& group) const {
+  return std::any_of(values_.begin(), values_.end(), [&](const auto& row) { return row.first->group() == group; });
 }
 
 void OptionValues::apply_group(const std::string& group, TunedOptions& options) const {
@@ -186,7 +206,7 @@ void OptionValues::apply(OdometryOptions& options) const {
 void OptionValues::apply(RelocalizerOptions& options) const {
   TunedOptions all;
   all.relocaliser = options;
-  apply_group("relocalise", all);
+  apply_group("relocaliser", all);
   options = all.relocaliser;
 }
 
@@ -215,7 +235,8 @@ void add_set_flag(CLI::App* command, std::vector<std::string>& settings, const s
             try {
               OptionValues({setting}, groups);
             } catch (const InputError& e) {
-              return e.what();
+              const std::string fault = e.what();  // the parser names the flag itself
+              return fault.substr(std::string("--set: ").size());
             }
             return "";
           },
@@ -240,7 +261,7 @@ std::string options_markdown() {
       "# Options\n\n"
       "`odosplat options` prints these. `--set NAME=VALUE` sets one, as often as needed; in a `--config` file a line\n"
       "`NAME = VALUE` does, or `KEY = VALUE` below a table `[odometry.window]`. `track` takes `odometry.*` and\n"
-      "`relocalise.*`, `relocalise` takes `relocalise.*`, `train` takes `train.*` (defaults: those of\n"
+      "`relocaliser.*`, `relocalise` takes `relocaliser.*`, `train` takes `train.*` (defaults: those of\n"
       "`--preset default`; `--preset paper` has its own). What has a flag of its own (`--help`) is not repeated here.\n"
       "This page is `odosplat options --markdown`.\n\n"
       "| option | default | range | unit | meaning |\n|---|---|---|---|---|\n";

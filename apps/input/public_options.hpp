@@ -57,6 +57,7 @@ class OptionValues {
   void apply(RelocalizerOptions& options) const;
   void apply(TrainerOptions& options) const;
   void apply(InitializeOptions& options) const;
+  bool has(const std::string& group) const;
   /// Names and values as text, in the order in which they were given.
   std::vector<std::pair<std::string, std::string>> items() const;
 

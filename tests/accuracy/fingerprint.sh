@@ -8,6 +8,7 @@ set -euo pipefail
 program=$1 out=$2
 shift 2
 mkdir -p "$out"
+[ -z "$(ls -A "$out")" ] || { echo "$out is not empty" >&2 && exit 2; }
 "$program" demo --out "$out/demo" --log warning >/dev/null
 for sequence; do
   made=$out/$(basename "$sequence")
@@ -22,5 +23,6 @@ find . -name status.csv | while read -r file; do
   awk -F, -v OFS=, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i ~ /ms$|milliseconds/) drop[i] = 1 }
     { for (i in drop) $i = "" } 1' "$file" >"$file.untimed"
 done
-find . \( -name '*.ply' -o -name 'trajectory*.txt' -o -name '*.untimed' -o -name '*.png' \) \
-  ! -path './demo/sequence/*' | LC_ALL=C sort | xargs sha256sum
+find . \( -name '*.ply' -o -name 'trajectory*.txt' -o -name '*.untimed' -o -name covariance.csv \
+  -o -name '*.png' \) \
+  ! -path './demo/sequence/*' -print0 | LC_ALL=C sort -z | xargs -0 sha256sum

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "apps/input/public_options.hpp"
@@ -21,8 +22,9 @@ using apps::PublicOption;
 using apps::TunedOptions;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
-const std::vector<std::string> all_groups{"odometry", "relocalise", "train"};
+const std::vector<std::string> all_groups{"odometry", "relocaliser", "train"};
 
 double value_in(const PublicOption& option, TunedOptions& options) {
   return std::visit([](const auto* field) { return static_cast<double>(*field); }, option.field(options));
@@ -95,6 +97,61 @@ TEST(Options, ValuesOfTheWholeRangeAreTaken) {
   }
 }
 
+// What each name means, once more by hand: a row that is bound to another field fails.
+TEST(Options, NamesAreBoundToTheirFields) {
+  TunedOptions o;
+  const std::map<std::string, const void*> expected{
+      {"odometry.window.keyframes", &o.odometry.window.max_keyframes},
+      {"odometry.window.iterations", &o.odometry.optimizer.max_iterations},
+      {"odometry.window.points", &o.odometry.keyframe.window_points.points},
+      {"odometry.window.anchor_points", &o.odometry.keyframe.window_points.anchor_points},
+      {"odometry.keyframe.flow", &o.odometry.policy.translation_flow},
+      {"odometry.keyframe.coverage", &o.odometry.policy.min_coverage},
+      {"odometry.align.iterations", &o.odometry.aligner.max_iterations},
+      {"odometry.align.noise", &o.odometry.aligner.noise},
+      {"odometry.accept.inliers", &o.odometry.accept.min_inliers},
+      {"odometry.accept.correlation", &o.odometry.accept.min_correlation},
+      {"odometry.confirm.confirmed", &o.odometry.confirmation.confirmed},
+      {"odometry.confirm.contradicted", &o.odometry.confirmation.contradicted},
+      {"odometry.confirm.frames", &o.odometry.max_unconfirmed},
+      {"odometry.misfit.translation", &o.odometry.max_misfit_translation},
+      {"odometry.misfit.rotation", &o.odometry.max_misfit_rotation},
+      {"odometry.memory.keyframes", &o.odometry.memory.capacity},
+      {"odometry.covariance.frame", &o.odometry.frame_covariance_factor},
+      {"odometry.covariance.keyframe", &o.odometry.keyframe_covariance_factor},
+      {"odometry.prefetch", &o.odometry.prefetch_images},
+      {"relocaliser.candidates", &o.relocaliser.candidates},
+      {"relocaliser.finalists", &o.relocaliser.finalists},
+      {"relocaliser.score", &o.relocaliser.verifier.min_score},
+      {"relocaliser.sigma", &o.relocaliser.max_position_sigma},
+      {"train.ssim_weight", &o.train.loss.ssim_weight},
+      {"train.depth_cut", &o.train.depth.cut},
+      {"train.coarse_levels", &o.train.coarse_levels},
+      {"train.color_rate", &o.train.color_rate},
+      {"train.densify.until", &o.train.densify.until_share},
+      {"train.start.size", &o.start.scale_factor},
+      {"train.start.opacity", &o.start.opacity},
+  };
+  EXPECT_EQ(expected.size(), public_options().size());
+  for (const PublicOption& option : public_options()) {
+    ASSERT_EQ(expected.count(option.name), 1U) << option.name;
+    EXPECT_EQ(std::visit([](auto* field) -> const void* { return field; }, option.field(o)), expected.at(option.name))
+        << option.name;
+  }
+}
+
+// What reports say was set is what was used.
+TEST(Options, ValuesAreRecordedAsTheyAre) {
+  const OptionValues values({"odometry.align.noise=0.0196078431", "train.start.opacity=0.1"}, all_groups);
+  EXPECT_EQ(values.items()[0].second, "0.0196078431");
+  EXPECT_EQ(values.items()[1].second, "0.1");
+  for (const PublicOption& option : public_options()) {
+    TunedOptions set = with(option.name + "=" + option.default_text());
+    TunedOptions untouched = defaults();
+    EXPECT_EQ(value_in(option, set), value_in(option, untouched)) << option.name;
+  }
+}
+
 TEST(Options, BadSettingsAreNamed) {
   EXPECT_EQ(fault_of({"odometry.window.keyframes=5", "train.ssim_weight=0.1"}), "");
   EXPECT_THAT(fault_of({"odometry.window.keyframe=5"}),
@@ -102,12 +159,13 @@ TEST(Options, BadSettingsAreNamed) {
   EXPECT_THAT(fault_of({"odometry.window.keyframes"}), HasSubstr("NAME=VALUE"));
   EXPECT_THAT(fault_of({"odometry.window.keyframes=5.5"}), HasSubstr("whole number"));
   EXPECT_THAT(fault_of({"odometry.window.keyframes=1"}), HasSubstr("3..20"));
-  for (const char* text : {"nan", "inf", "", "0.5x", "0,5"}) {
+  EXPECT_EQ(fault_of({"train.ssim_weight=+0.5"}), "");
+  for (const char* text : {"nan", "inf", "", "0.5x", "0,5", "+-1", "0x1"}) {
     EXPECT_THAT(fault_of({std::string("train.ssim_weight=") + text}), HasSubstr("must be a number")) << text;
   }
   EXPECT_THAT(fault_of({"odometry.window.keyframes=5", "odometry.window.keyframes=6"}), HasSubstr("twice"));
-  EXPECT_THAT(fault_of({"train.ssim_weight=0.1"}, {"odometry", "relocalise"}),
-              AllOf(HasSubstr("no option of this command"), HasSubstr("odometry.*, relocalise.*")));
+  EXPECT_THAT(fault_of({"train.ssim_weight=0.1"}, {"odometry", "relocaliser"}),
+              AllOf(HasSubstr("no option of this command"), HasSubstr("odometry.*, relocaliser.*")));
 }
 
 TEST(Options, ThePageIsWhatTheProgramPrints) {
@@ -116,7 +174,7 @@ TEST(Options, ThePageIsWhatTheProgramPrints) {
   EXPECT_EQ(page.out, read_text(std::filesystem::path(test::source_dir()) / "docs/options.md"))
       << "odosplat options --markdown > docs/options.md";
   const RunResult json = run_odosplat({"options", "--json"});
-  EXPECT_THAT(json.out, AllOf(HasSubstr("\"odometry.window.keyframes\""), HasSubstr("\"default\": 7.0")));
+  EXPECT_THAT(json.out, AllOf(HasSubstr("\"odometry.window.keyframes\""), HasSubstr("\"default\": 7,")));
 }
 
 TEST(Options, AreSeenByTheCommands) {
@@ -145,13 +203,24 @@ TEST(Options, AreSeenByTheCommands) {
   ASSERT_EQ(track("set", {"--set", "odometry.covariance.frame=9"}).status, 0);
   EXPECT_EQ(read_text(scratch / "run/trajectory.txt"), read_text(scratch / "set/trajectory.txt"));
   EXPECT_NE(read_text(scratch / "run/covariance.csv"), read_text(scratch / "set/covariance.csv"));
-  EXPECT_THAT(read_text(scratch / "set/report.json"), HasSubstr("\"odometry.covariance.frame\": \"9\""));
+  EXPECT_THAT(read_text(scratch / "set/report.json"), HasSubstr("\"odometry.covariance.frame\": 9.0"));
 
   // A file of flags says the same, by a table or by a dotted key; the command line wins.
   write_text(scratch / "flags.toml", "seed = 3141592\n[odometry.covariance]\nframe = 9\n");
   ASSERT_EQ(track("file", {"--config", scratch / "flags.toml"}).status, 0);
   EXPECT_EQ(read_text(scratch / "file/covariance.csv"), read_text(scratch / "set/covariance.csv"));
   write_text(scratch / "flags.toml", "odometry.covariance.frame = 4\n");
+  EXPECT_THAT(track("none", {"--relocalise", "off", "--set", "relocaliser.score=0.9"}).err,
+              HasSubstr("relocaliser.*: is not used"));
+  const auto look_up = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"relocalise", sequence, "--map", scratch / "map.ply", "--json", scratch / "l.json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_odosplat(words);
+  };
+  const RunResult strict = look_up({"--set", "relocaliser.score=0.99", "--set", "relocaliser.sigma=0.001"});
+  EXPECT_THAT(strict.out, HasSubstr(" 0 found"));
+  EXPECT_EQ(strict.status, 3);
+  EXPECT_THAT(read_text(scratch / "l.json"), HasSubstr("\"relocaliser.score\": 0.99"));
   ASSERT_EQ(track("both", {"--config", scratch / "flags.toml", "--set", "odometry.covariance.frame=9"}).status, 0);
   EXPECT_EQ(read_text(scratch / "both/covariance.csv"), read_text(scratch / "set/covariance.csv"));
 }
@@ -168,7 +237,13 @@ TEST(Options, FaultsInAFileNameItsLine) {
   EXPECT_THAT(fault("[odometry.window]\nkeyframe = 3\n", "track"),
               AllOf(HasSubstr("flags.toml: line 2"), HasSubstr("did you mean odometry.window.keyframes?")));
   EXPECT_THAT(fault("odometry.window.keyframes = 1\n", "track"), AllOf(HasSubstr("line 1"), HasSubstr("3..20")));
+  EXPECT_THAT(fault("odometry.window.keyframes = 1\n", "track"), Not(HasSubstr("--set")));
   EXPECT_THAT(fault("odometry.window.keyframes = 5\n", "devices"), HasSubstr("no options to set"));
+  EXPECT_THAT(fault("[odometry.window]\nkeyframes = 5\nseed = 7\n", "track"),
+              AllOf(HasSubstr("line 3"), HasSubstr("flags stand above the first [table]")));
+  EXPECT_THAT(fault("set = [\"odometry.window.keyframes=5\"]\n", "track"), HasSubstr("write NAME = VALUE"));
+  EXPECT_THAT(fault("seed = 1\n[seed]\n", "track"), HasSubstr("seed is a value above"));
+  EXPECT_THAT(fault("a = { b = 1 }\n", "track"), HasSubstr("inline tables are not read"));
   EXPECT_THAT(fault("odometry.window.keyframes = [5]\n", "track"), HasSubstr("not an array"));
   EXPECT_THAT(fault("[a]\nx = 1\n[a]\n", "track"), HasSubstr("line 3"));
 }

@@ -81,10 +81,34 @@ TEST_F(Training, TheLibraryMakesTheSameMap) {
   EXPECT_EQ(made.map.header.sigma->spread, written.header.sigma->spread);
   EXPECT_EQ(made.map.header.rasterizer.order, written.header.rasterizer.order);
   EXPECT_EQ(made.training.iterations, 120);
+  // The command knows the frames besides, and how many steps are usual.
+  std::vector<std::string> notes = written.header.notes;
+  std::erase_if(notes, [](const std::string& note) {
+    return note.starts_with("training_frames ") || note.starts_with("quality_verdict ");
+  });
+  std::vector<std::string> library_notes = made.map.header.notes;
+  std::erase_if(library_notes, [](const std::string& note) { return note.starts_with("quality_verdict "); });
+  EXPECT_EQ(library_notes, notes);
   // And it can be looked at as it comes, and written.
   write_map(scratch_ / "again.ply", made.map);
   EXPECT_EQ(read_map(scratch_ / "again.ply").gaussians.opacity_logits, made.map.gaussians.opacity_logits);
   EXPECT_EQ(GaussianView(compute::Context::open(), made.map).name(), "gaussian");
+}
+
+// Random shapes and colours of the paper's recipe: the seeds are the command's.
+TEST_F(Training, TheLibraryMakesTheSameMapByThePapersRecipe) {
+  const std::string map = scratch_ / "map.ply";
+  ASSERT_EQ(run_odosplat(words(map, {"--preset", "paper", "--budget", "2000"})).status, 0);
+  apps::SequenceViews views({sequence_}, {}, 3, {});
+  TrainerOptions options = TrainerOptions::preset("paper", views.count());
+  options.iterations = 120;
+  options.densify.budget = 2000;
+  InitializeOptions initial = InitializeOptions::preset("paper");
+  initial.budget = 2000;
+  const TrainedMap made =
+      odosplat::train_map(compute::Context::open(), read_point_cloud(cloud_), views, initial, options);
+  EXPECT_EQ(made.map.gaussians.positions, read_map(map).gaussians.positions);
+  EXPECT_EQ(made.map.gaussians.rotations, read_map(map).gaussians.rotations);
 }
 
 TEST_F(Training, KilledRunsEndWithTheSameBits) {

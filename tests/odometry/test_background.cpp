@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "odosplat/odometry/keyframe/keyframe_thread.hpp"
 #include "odosplat/odometry/odometry.hpp"
 #include "tests/odometry/box_room.hpp"
 

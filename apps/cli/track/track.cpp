@@ -252,6 +252,9 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
   if (range.begin >= range.end)
     throw InputError("--frames", "is " + job.frames + ", the sequence has " + std::to_string(sequence.size()));
   OpenedView opened = open_view(common, job.method, job.map, {job.depth_noise.model, job.seed});
+  if (job.options.has("relocaliser") && ((!job.relocalise && job.start != "auto") || opened.sensor != nullptr)) {
+    log_warning("--set relocaliser.*: is not used, as nothing is looked up (--relocalise off, or method rgbd)");
+  }
   const auto relocalizer = make_relocalizer(job, sequence.camera(), *opened.view, opened.sensor != nullptr);
   TrackRecord record;
   range = readable_range(sequence, range, opened, record);
@@ -307,7 +310,7 @@ void add_track(CLI::App& app, Common& common) {
   add_depth_noise_flag(command, job->depth_noise);
   add_number(command, "--seed", job->seed, {}, "seed of the pixel selector and of depth noise");
   auto settings = std::make_shared<std::vector<std::string>>();
-  const std::vector<std::string> groups{"odometry", "relocalise"};
+  const std::vector<std::string> groups{"odometry", "relocaliser"};
   add_set_flag(command, *settings, groups);
   command->final_callback([&common, job, anchor, relocalise, settings, groups] {
     job->options = OptionValues(*settings, groups);

@@ -106,7 +106,7 @@ void TrackRecord::write(const TrackJob& job, const TrackOutcome& o, const Odomet
                                 {"seed", job.seed},
                                 {"version", ODOSPLAT_VERSION},
                                 {"finished", finished}};
-  for (const auto& [name, value] : job.options.items()) report["options"][name] = value;
+  for (const auto& [name, value] : job.options.items()) report["options"][name] = std::stod(value);
   if (job.realtime) report["realtime"] = {{"dropped", o.dropped}, {"prefetched", s.prefetched}};
   Trajectory live;
   for (const Row& row : rows_) {

@@ -161,6 +161,7 @@ void write_report(const TrainJob& job, const TrainedMap& made, const SequenceVie
                               {"version", ODOSPLAT_VERSION},
                               {"quality", json_of(quality)},
                               {"images", json_of_views(made.views, views)}};
+  for (const auto& [name, value] : job.options.items()) json["options"][name] = std::stod(value);
   if (device.profiling()) {
     nlohmann::ordered_json& stages = json["stages_ms"];  // a step, not the whole run
     for (const compute::StageTime& stage : device.stage_times())

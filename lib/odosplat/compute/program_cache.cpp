@@ -23,7 +23,7 @@ namespace {
 constexpr char magic[8] = {'o', 's', 'p', 'l', 'a', 't', '0', '1'};
 constexpr std::string_view part_mark = ".bin.part-";
 
-// FNV-1a, 64 bits.
+// FNV-1a, 64 bits, as core/checksum.hpp has it, which this library does not use.
 std::uint64_t hash(const void* data, std::size_t size) {
   const auto* bytes = static_cast<const unsigned char*>(data);
   std::uint64_t h = 0xcbf29ce484222325ULL;

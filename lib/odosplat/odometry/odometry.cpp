@@ -6,6 +6,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/odometry/frame/least_size.hpp"
+#include "odosplat/odometry/keyframe/keyframe_thread.hpp"
 #include "odosplat/odometry/relocalise/relocalizer.hpp"
 
 namespace odosplat {
@@ -68,7 +69,11 @@ Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& op
   check_least_size(camera_);
   options_.check();
   require(T_world_camera_start.is_finite(), "start pose", "finite");
-  if (options_.background) thread_ = std::make_unique<KeyframeThread>(backend_);
+  if (options_.background) {
+    keyframes_ = std::make_unique<KeyframeThread>(backend_);
+  } else {
+    keyframes_ = std::make_unique<InlineKeyframes>(backend_);
+  }
 }
 
 Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& options, Relocalizer& relocalizer)
@@ -79,7 +84,7 @@ Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& op
 
 TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr<MapView> view) {
   const auto start = SteadyClock::now();
-  if (thread_ != nullptr) take_over_finished(thread_->take());
+  take_over(keyframes_->take());
   KeyframeRequest request;
   request.view = std::move(view);
   request.frame = counts_.frames;
@@ -100,10 +105,10 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
   } else {
     // Until the first keyframe stands, the camera is where the caller said.
     request.T_world_camera = *T_world_camera_start_;
-    make_keyframe(request, result);
-    if (result.keyframe && !stands(keyframe_evidence_, keyframe_misfit_, true)) {
+    const bool made = make_keyframe(request, result);
+    if (made && !stands(keyframe_evidence_, keyframe_misfit_, true)) {
       refuse(image, request, result, keyframe_evidence_);
-    } else if (result.keyframe) {
+    } else if (made) {
       result.status = TrackStatus::ok;
       result.inlier_share = 1.0;
       result.coverage = 1.0;
@@ -159,20 +164,14 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
   request.T_world_camera = frame.T_world_camera;
   request.brightness = frame.brightness;
   request.image = frame.image;
-  const TrackedImage tracked{frame.image.even, frame.T_world_camera, frame.brightness};
-  if (thread_ != nullptr) {
-    thread_->observe(tracked);
-  } else {
-    backend_.trace(tracked);
-  }
+  keyframes_->observe({frame.image.even, frame.T_world_camera, frame.brightness});
   if (frame.keyframe_due()) {
-    make_keyframe(request, result);
-    if (!result.keyframe) return;
+    if (!make_keyframe(request, result)) return;
     if (keyframe_evidence_.verdict == Confirmation::confirmed) result.evidence = keyframe_evidence_;
     if (to_be_confirmed_ && result.evidence.verdict != Confirmation::confirmed) {
       refuse(image, request, result, keyframe_evidence_);
     }
-  } else if (thread_ != nullptr && request.view == nullptr) {
+  } else if (keyframes_->renders_ahead() && request.view == nullptr) {
     render_ahead(frame, request.time);
   }
 }
@@ -237,8 +236,7 @@ bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request
   afresh.fresh = true;
   TrackResult made;
   front_.lose();  // how the camera came here is not known, nor what was believed of this frame
-  make_keyframe(afresh, made);
-  if (!made.keyframe || !stands(keyframe_evidence_, keyframe_misfit_, true)) return false;
+  if (!make_keyframe(afresh, made) || !stands(keyframe_evidence_, keyframe_misfit_, true)) return false;
   result.evidence = keyframe_evidence_;
   result.misfit = made.misfit;
   result.status = TrackStatus::relocalised;
@@ -251,47 +249,31 @@ bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request
   return true;
 }
 
-void Odometry::finish() {
-  if (thread_ != nullptr) take_over_finished(thread_->wait());
-}
+void Odometry::finish() { take_over(keyframes_->wait()); }
 
-void Odometry::make_keyframe(const KeyframeRequest& request, TrackResult& result) {
+bool Odometry::make_keyframe(const KeyframeRequest& request, TrackResult& result) {
   // With nothing to track against meanwhile, there is nothing to do but wait.
-  if (thread_ != nullptr && !front_.empty() && !request.fresh) {
-    thread_->request(request);
-    return;
-  }
-  const int before = counts_.keyframes;
-  const int anchored_before = counts_.anchored;
-  if (thread_ != nullptr) {
-    thread_->request(request);
-    finish();
-  } else {
-    KeyframeRequest numbered = request;
-    numbered.id = counts_.keyframes;
-    take_over(numbered, backend_.add(numbered));
-  }
-  if (counts_.keyframes == before) return;
+  const std::optional<FinishedKeyframe> finished = keyframes_->make(request, front_.empty() || request.fresh);
+  take_over(finished);
+  if (!finished || !finished->outcome.made) return false;
   result.T_world_camera = front_.newest().T_world_camera;
   result.covariance = options_.keyframe_covariance_factor * front_.newest().covariance + keyframe_misfit_.covariance;
   result.misfit = keyframe_misfit_.meters;
   result.keyframe = true;
-  result.anchored = counts_.anchored > anchored_before;
+  result.anchored = finished->outcome.anchored;
+  return true;
 }
 
-void Odometry::take_over_finished(const std::optional<FinishedKeyframe>& finished) {
+void Odometry::take_over(const std::optional<FinishedKeyframe>& finished) {
   if (!finished) return;
-  backend_stages_ = finished->stages;
-  take_over(finished->request, finished->outcome);
-}
-
-void Odometry::take_over(const KeyframeRequest& request, const KeyframeOutcome& outcome) {
+  const KeyframeRequest& request = finished->request;
+  const KeyframeOutcome& outcome = finished->outcome;
   map_share_ = outcome.map_share;
   keyframe_evidence_ = outcome.evidence;
   keyframe_misfit_ = outcome.misfit;
-  if (outcome.made) counts_.likely_cause = outcome.likely_cause;
   rendered_ahead_ = false;
   if (!outcome.made) return;
+  counts_.likely_cause = outcome.likely_cause;
   in_map_ = outcome.in_map;
   const ReferenceFrame& keyframe = outcome.window.back();
   record_.add_keyframe(request.time, keyframe.T_world_camera, request.fresh);
@@ -314,7 +296,7 @@ void Odometry::render_ahead(const TrackedFrame& frame, double time) {
   const double images = std::ceil((due - time) / interval);
   if (!(images <= options_.prefetch_images)) return;
   history.add(time, frame.T_world_camera);
-  thread_->prefetch(predict(history, time + images * interval));
+  keyframes_->prefetch(predict(history, time + images * interval));
   rendered_ahead_ = true;
 }
 
@@ -327,7 +309,7 @@ std::vector<double> Odometry::keyframe_times() const {
 OdometryStatistics Odometry::statistics() const {
   OdometryStatistics all = counts_;
   all.stages = stages_;
-  const std::vector<StageTime>& backend = thread_ != nullptr ? backend_stages_ : backend_.stages();
+  const std::vector<StageTime> backend = keyframes_->stages();
   all.stages.insert(all.stages.end(), backend.begin(), backend.end());
   return all;
 }

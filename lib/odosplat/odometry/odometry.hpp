@@ -11,7 +11,7 @@
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/odometry/frame/frame_tracker.hpp"
 #include "odosplat/odometry/keyframe/keyframe_backend.hpp"
-#include "odosplat/odometry/keyframe/keyframe_thread.hpp"
+#include "odosplat/odometry/keyframe/keyframe_worker.hpp"
 #include "odosplat/odometry/trajectory_record.hpp"
 
 namespace odosplat {
@@ -112,6 +112,10 @@ class Odometry {
   /// options.
   Odometry(const Camera& camera, MapView& map, const OdometryOptions& options, const SE3& T_world_camera_start);
 
+  // Its parts refer to each other.
+  Odometry(const Odometry&) = delete;
+  Odometry& operator=(const Odometry&) = delete;
+
   /// For a start pose that is not known: images are looked up until one is found. relocalizer: as for set_relocalizer.
   Odometry(const Camera& camera, MapView& map, const OdometryOptions& options, Relocalizer& relocalizer);
 
@@ -153,9 +157,9 @@ class Odometry {
   /// Whether a posed frame counts as in the map. Where it does not although its keyframe's depth is the map's, its
   /// covariance grows as that of keyframes outside does.
   void judge(TrackResult& result);
-  void make_keyframe(const KeyframeRequest& request, TrackResult& result);
-  void take_over(const KeyframeRequest& request, const KeyframeOutcome& outcome);
-  void take_over_finished(const std::optional<FinishedKeyframe>& finished);
+  /// Asks for a keyframe and writes it into the result. False: there is none, or not yet.
+  bool make_keyframe(const KeyframeRequest& request, TrackResult& result);
+  void take_over(const std::optional<FinishedKeyframe>& finished);
   void render_ahead(const TrackedFrame& frame, double time);
 
   Camera camera_;
@@ -165,7 +169,6 @@ class Odometry {
   KeyframeBackend backend_;
   TrajectoryRecord record_;
   std::vector<StageTime> stages_{{"pyramid"}, {"track"}, {"relocalise"}};
-  std::vector<StageTime> backend_stages_;
   OdometryStatistics counts_;      // without stages
   double map_share_ = 0.0;         // of the last image that was tried as keyframe
   MapEvidence keyframe_evidence_;  // of the last image that was tried as keyframe
@@ -173,10 +176,10 @@ class Odometry {
   bool in_map_ = false;            // of the last keyframe
   bool rendered_ahead_ = false;
   Relocalizer* relocalizer_ = nullptr;
-  int lost_in_a_row_ = 0;                   // images that show something
-  int unconfirmed_ = 0;                     // posed frames since the map has confirmed one
-  bool to_be_confirmed_ = false;            // the map spoke against the last keyframe
-  std::unique_ptr<KeyframeThread> thread_;  // last: it uses the back end until it is gone
+  int lost_in_a_row_ = 0;                      // images that show something
+  int unconfirmed_ = 0;                        // posed frames since the map has confirmed one
+  bool to_be_confirmed_ = false;               // the map spoke against the last keyframe
+  std::unique_ptr<KeyframeWorker> keyframes_;  // last: it uses the back end until it is gone
 };
 
 }  // namespace odosplat

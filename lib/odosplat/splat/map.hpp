@@ -14,8 +14,9 @@
 
 namespace odosplat {
 
-/// What a map says of itself besides its Gaussians. Defaults: what is true of a map that says nothing (trained
-/// elsewhere, or .splat).
+/// What a map says of itself besides its Gaussians. The other fields are read from the notes, and write_map writes the
+/// notes: change these, and make the header anew (from_notes). Defaults: what is true of a map that says nothing
+/// (trained elsewhere, or .splat).
 struct MapHeader {
   /// The lines of the file's header: settings of the training, and everything below; or the comments of another
   /// program's PLY, without those that begin with the name of a setting of ours.

@@ -56,12 +56,13 @@ struct TrainingFacts {
 TrainedMap finish_training(const compute::Context& context, const Trainer& trainer, const TrainingStart& start,
                            TrainingViews& views, const TrainingFacts& facts, const StageNotice& stage = {});
 
-/// A map from a cloud [m, world] and posed images of it, as `odosplat train` makes it: prepare_training, all steps of a
-/// Trainer, finish_training. preset: "default" or "paper". Blocks; the same bits for the same seed, input and device.
-/// Errors: those of the three.
+/// A map from a cloud [m, world] and posed images of it, as `odosplat train` makes it with that preset ("default" or
+/// "paper") and no other flags: prepare_training, all steps of a Trainer, finish_training. The header does not name the
+/// training frames, which the views do not know. Blocks; the same bits for the same seed, input and device. Errors:
+/// those of the three.
 TrainedMap train_map(const compute::Context& context, PointCloud cloud, TrainingViews& views,
                      const std::string& preset = "default");
-/// The same with options of one's own.
+/// The same with options of one's own; the verdict takes their number of steps for the usual one.
 TrainedMap train_map(const compute::Context& context, PointCloud cloud, TrainingViews& views,
                      const InitializeOptions& initial, const TrainerOptions& options);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"

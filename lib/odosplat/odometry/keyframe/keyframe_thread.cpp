@@ -27,6 +27,11 @@ bool KeyframeThread::request(KeyframeRequest request) {
   return true;
 }
 
+std::optional<FinishedKeyframe> KeyframeThread::make(KeyframeRequest wanted, bool to_wait) {
+  request(std::move(wanted));
+  return to_wait ? wait() : std::nullopt;
+}
+
 void KeyframeThread::observe(TrackedImage image) {
   constexpr std::size_t most = 16;
   {
@@ -58,6 +63,7 @@ std::optional<FinishedKeyframe> KeyframeThread::wait() {
 
 std::optional<FinishedKeyframe> KeyframeThread::take_locked() {
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  if (finished_) stages_ = finished_->stages;
   return std::exchange(finished_, std::nullopt);
 }
 

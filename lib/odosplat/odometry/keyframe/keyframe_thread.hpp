@@ -10,27 +10,20 @@
 #include <thread>
 #include <vector>
 
-#include "odosplat/odometry/keyframe/keyframe_backend.hpp"
+#include "odosplat/odometry/keyframe/keyframe_worker.hpp"
 
 namespace odosplat {
-
-/// A keyframe that was asked for, and what came of it.
-struct FinishedKeyframe {
-  KeyframeRequest request;
-  KeyframeOutcome outcome;
-  std::vector<StageTime> stages;  // of the back end, so far
-};
 
 /// The back end on a thread of its own. At most one request waits, at most one is in the making, and the result of one
 /// must be taken before another is begun: nothing grows, however slow the back end is. What it throws is thrown again
 /// by take() or wait(), and the thread goes on. All calls from one thread, the front end's; the back end and its map
 /// belong to the inner thread from construction on, except while idle() holds.
-class KeyframeThread {
+class KeyframeThread : public KeyframeWorker {
  public:
   /// backend must outlive this, and nobody else may use it or its map.
   explicit KeyframeThread(KeyframeBackend& backend);
   /// Finishes the keyframe in the making, if there is one; drops what waits.
-  ~KeyframeThread();
+  ~KeyframeThread() override;
   KeyframeThread(const KeyframeThread&) = delete;
   KeyframeThread& operator=(const KeyframeThread&) = delete;
 
@@ -38,19 +31,16 @@ class KeyframeThread {
   /// changed, if one is in the making or waits to be taken. Keyframes are numbered by this thread.
   bool request(KeyframeRequest request);
 
-  /// Hands on a tracked frame for KeyframeBackend::trace, which a keyframe asked for later will have seen. Of those
-  /// that the back end has no time for, the oldest are dropped.
-  void observe(TrackedImage image);
+  std::optional<FinishedKeyframe> make(KeyframeRequest wanted, bool to_wait) override;
 
-  /// Asks for the map to be rendered where the next keyframe will probably be.
-  void prefetch(const SE3& T_world_camera);
+  /// Of the frames that the back end has no time for, the oldest are dropped.
+  void observe(TrackedImage image) override;
 
-  /// The keyframe that was finished since the last call, if any.
-  std::optional<FinishedKeyframe> take();
-
-  /// Waits until nothing is asked for any more, then as take(). Until the next call of request(), observe() or
-  /// prefetch() the back end and its map are the caller's.
-  std::optional<FinishedKeyframe> wait();
+  bool renders_ahead() const override { return true; }
+  void prefetch(const SE3& T_world_camera) override;
+  std::optional<FinishedKeyframe> take() override;
+  std::optional<FinishedKeyframe> wait() override;
+  std::vector<StageTime> stages() const override { return stages_; }
 
  private:
   void run();
@@ -58,7 +48,8 @@ class KeyframeThread {
   std::optional<FinishedKeyframe> take_locked();
 
   KeyframeBackend& backend_;
-  int made_ = 0;  // keyframes; the inner thread's
+  int made_ = 0;                   // keyframes; the inner thread's
+  std::vector<StageTime> stages_;  // with the last keyframe that was taken; the front end's
   std::mutex mutex_;
   std::condition_variable wake_;  // something is asked for
   std::condition_variable rest_;  // something is done

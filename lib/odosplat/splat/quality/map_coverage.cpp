@@ -3,7 +3,9 @@
 // What training images show: of the cloud, of the directions, and of the map against them.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "odosplat/core/upper_median.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
 #include "odosplat/splat/quality/map_quality.hpp"
 #include "odosplat/splat/quality/seen_points.hpp"
@@ -61,12 +63,6 @@ double psnr_db(const ColorImage& rendered, const ColorImage& image, const std::a
   return LossValue{0.0, 0.0, sum / (3.0 * static_cast<double>(image.total())), 0.0}.psnr_db();
 }
 
-double middle_of(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
-}
-
 void compare_depth(const DepthImage& depth, const DepthImage& surface, ViewQuality& quality) {
   std::vector<float> errors;
   std::vector<float> shares;
@@ -79,8 +75,8 @@ void compare_depth(const DepthImage& depth, const DepthImage& surface, ViewQuali
     }
   }
   if (errors.empty()) return;
-  quality.depth_error_m = middle_of(errors);
-  quality.depth_error_share = middle_of(shares);
+  quality.depth_error_m = static_cast<double>(upper_median(std::move(errors)));
+  quality.depth_error_share = static_cast<double>(upper_median(std::move(shares)));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct InitializeOptions {
   int normal_neighbors = 20;   // neighbours of a normal, where the cloud has none, >= 3
   int smoothing_neighbors = 32;  // discs: neighbours that a point is smoothed with along its normal, 0 = none
   std::size_t budget = 0;        // at most this many Gaussians: a seeded random choice of the points; 0 = all of them
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 42;
 
   /// "default", or "paper": spheres as large as the neighbours' distance. Throws InputError else.
   static InitializeOptions preset(const std::string& name);
