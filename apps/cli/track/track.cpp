@@ -252,10 +252,10 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
   if (range.begin >= range.end)
     throw InputError("--frames", "is " + job.frames + ", the sequence has " + std::to_string(sequence.size()));
   OpenedView opened = open_view(common, job.method, job.map, {job.depth_noise.model, job.seed});
-  if (job.options.has("relocaliser") && ((!job.relocalise && job.start != "auto") || opened.sensor != nullptr)) {
+  const auto relocalizer = make_relocalizer(job, sequence.camera(), *opened.view, opened.sensor != nullptr);
+  if (relocalizer == nullptr && job.options.has("relocaliser")) {
     log_warning("--set relocaliser.*: is not used, as nothing is looked up (--relocalise off, or method rgbd)");
   }
-  const auto relocalizer = make_relocalizer(job, sequence.camera(), *opened.view, opened.sensor != nullptr);
   TrackRecord record;
   range = readable_range(sequence, range, opened, record);
   const auto started = start_odometry(job, sequence, range, opened, relocalizer.get());
