@@ -38,7 +38,8 @@ struct SurfacePoint {
 
 /// Fits inverse depth as a linear function of the pixel (exact for planes) over the window around (x, y), which is
 /// sampled every `stride` pixels. At depth edges the nearest surface is taken: an image edge moves with the surface in
-/// front. sigma may be empty. Returns nothing where the map has no depth or does not trust it. Pure function.
+/// front. sigma may be empty. Returns nothing where the map has no depth, too large a sigma or too small a surface.
+/// Pure function.
 std::optional<SurfacePoint> fit_surface(const Camera& camera, const DepthImage& depth, const cv::Mat1f& sigma, int x,
                                         int y, int stride, const MapPlaneOptions& options);
 
