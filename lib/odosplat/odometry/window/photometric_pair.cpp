@@ -26,8 +26,8 @@ struct WarpedPattern {
   bool inside;
 };
 
-/// Sums over many points. Rows of S: host pose 6, target pose 6; columns: the same, then c, 1, the residual and one that
-/// is not used. Only blocks of 4 x 4 on and right of the diagonal are filled.
+/// Sums over many points. Rows of S: host pose 6, target pose 6; columns: the same, then c, 1, the residual and one
+/// that is not used. Only blocks of 4 x 4 on and right of the diagonal are filled.
 struct PairSums {
   Eigen::Matrix<float, 12, 16, Eigen::RowMajor> S = Eigen::Matrix<float, 12, 16, Eigen::RowMajor>::Zero();
   float cc = 0, c = 0, w = 0, cr = 0, r = 0;
