@@ -11,8 +11,8 @@ namespace odosplat {
 /// Colours are trained for one order and look speckled in another.
 enum class BlendOrder {
   depth,    // of the centre along the optical axis (Kerbl et al. 2023): maps of other programs are made for it
-  distance  // of the centre from the camera: does not change when the camera turns in place, while a change of depth
-            // order is visible
+  distance  // of the centre from the camera: does not change when the camera turns in place, where a change of the
+            // order by depth would be visible in the image
 };
 
 /// The order named "depth" or "distance"; InputError for other words.

@@ -224,7 +224,7 @@ Map parse_map(const std::string& name, const std::string& bytes) {
 
 MapHeader read_map_header(const std::string& path) {
   const std::string start = first_bytes(path);
-  if (start.empty()) read_file(path, max_data_bytes);  // says why it cannot be read
+  if (start.empty()) read_file(path, max_data_bytes);  // throws with the reason why it cannot be read
   refuse_foreign_format(path, start);
   if (is_splat_path(path)) return {};
   std::ifstream file(path, std::ios::binary);

@@ -28,7 +28,7 @@ struct TrainingStart {
   std::unique_ptr<InterpolationView> surface;  // null where the initial shape has none
   double shared_sigma = 0.0;                   // [m]
   CloudCoverage coverage;
-  double consistency = -1.0;  // ColorConsistency::Value::unexplained, negative: too few points in common to tell
+  double consistency = -1.0;  // ColorConsistency::Value::unexplained, negative: too few points in common
   std::optional<GeometryDoubt> doubt;
 };
 
@@ -46,7 +46,7 @@ struct TrainedMap {
 
 /// What is known of a training besides its result.
 struct TrainingFacts {
-  int usual_iterations = 0;        // of the preset, to say that a training was short
+  int usual_iterations = 0;        // of the preset, to report that a training was short
   std::size_t budget = 0;          // most Gaussians that the user asked for, 0: no such limit
   std::vector<std::string> notes;  // more lines for the header
 };

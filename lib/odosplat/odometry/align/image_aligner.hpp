@@ -51,8 +51,8 @@ struct PosePrior {
 /// Prior of independent errors of translation [m] and rotation [rad], the same along all axes.
 PosePrior pose_prior(const SE3& T_target_host, double sigma_translation, double sigma_rotation);
 
-/// How much an alignment is worth against others of the same frame: inliers over all points of the level, which rewards
-/// agreement and staying in view, less their residual; -1 where it did not finish.
+/// Measure to compare alignments of the same frame: inliers over all points of the level, which rewards agreement and
+/// staying in view, less their residual; -1 where it did not finish.
 double worth(const Alignment& alignment);
 
 /// Coarse-to-fine direct alignment: minimises sum w huber(I_target(pi(T p)) - e^a I_host(p) - b) over T, a, b.

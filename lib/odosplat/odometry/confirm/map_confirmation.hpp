@@ -37,7 +37,7 @@ struct ConfirmationOptions {
   void check() const;
 };
 
-/// What the map's colours say about a pose.
+/// How a pose agrees with the map's colours.
 enum class Confirmation {
   none,          // nothing: the map shows too little there, or nothing with texture, or has no colours
   confirmed,     // the image agrees with the map there

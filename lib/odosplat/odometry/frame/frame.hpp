@@ -35,7 +35,7 @@ struct FramePyramid {
   int levels() const { return static_cast<int>(gray.size()); }
 };
 
-/// Throws InputError unless the image is as large as the camera says.
+/// Throws InputError unless the image has the camera's size.
 void check_size(const Camera& camera, const GrayImage& image);
 
 /// Levels are halved while both sides stay at least 30 px, at most 6 of them. gray is shared, not copied; its size must

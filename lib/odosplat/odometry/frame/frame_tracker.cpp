@@ -150,7 +150,7 @@ bool FrameTracker::as_good_as_last(const Alignment& a) const {
 }
 
 Alignment FrameTracker::search_references(const FramePyramid& pyramid) {
-  // Newest first: the camera was there last. The first keyframe that is believed becomes the reference.
+  // Newest first: the camera was there last. The first keyframe with an accepted alignment becomes the reference.
   Alignment best;
   const SE3 T_world_last = history_.has_last ? history_.last : reference().T_world_camera;
   for (std::size_t k = references_.size(); k-- > 0;) {

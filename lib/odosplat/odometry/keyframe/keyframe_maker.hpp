@@ -93,7 +93,7 @@ struct MadeKeyframe {
   std::shared_ptr<Keyframe> keyframe;  // null: too little depth there
   TrackingReference reference;         // the keyframe's, with the map's points alone; the caller completes it and puts
                                        // it into the keyframe
-  bool in_map = false;                 // the map alone shows enough, and is believed
+  bool in_map = false;                 // the map alone shows enough, and its depth is used
   bool verifiable = false;             // the map has colours to be compared with the image
   double point_share = 0.0;            // share of the window's wanted points that the map should give
   double map_share = 0.0;              // share of the image with map depth

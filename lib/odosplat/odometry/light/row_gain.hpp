@@ -24,7 +24,7 @@ struct RowGainOptions {
                              // errors of the map look like a small one
   double explained = 0.5;    // cost with a row gain over the cost without one, above which it is rejected, too: a wrong
                              // pose or a damaged map also looks like a row gain, but is not explained by one
-  double same = 0.003;       // root mean square change that is not worth another alignment
+  double same = 0.003;       // root mean square change below which the image is not aligned again
 
   void check() const;
 };

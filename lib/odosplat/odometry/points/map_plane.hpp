@@ -22,7 +22,7 @@ struct MapPlaneOptions {
   double same_surface = 0.04;        // relative difference of inverse depth within one surface
   double min_support = 0.35;         // share of the window that must lie on the surface
   double max_relative_sigma = 0.05;  // sigma / depth above which a pixel has no usable depth
-  double relative_floor = 0.003;     // of depth: no sigma is believed to be smaller
+  double relative_floor = 0.003;     // share of depth that sigma is raised to if it is smaller
   double min_cosine = 0.15;          // between normal and ray; flatter planes are taken as facing the camera
 
   void check() const;

@@ -88,7 +88,7 @@ class Relocalizer {
   struct Finalist {
     Candidate candidate;
     PoseEvidence evidence;
-    std::string fault;  // why it is not believed
+    std::string fault;  // why it is not accepted
   };
 
   Relocalization look_up(const GrayImage& image, const std::optional<SE3>& T_world_near);

@@ -157,7 +157,7 @@ ColorConsistency::Value ColorConsistency::of(const GeometryHypothesis& hypothesi
     ++result.points;
     const double n = counts[i];
     within += (squares[i] - sums[i] * sums[i] / n) * n / (n - 1.0);
-    all += squares[i];  // about their mean, which is near 0 for values less their surroundings' mean
+    all += squares[i];  // about 0, which is the mean of values less their surroundings' mean
   }
   if (result.points < least_points || !(all > 0.0)) return result;
   result.unexplained = within / all;

@@ -71,7 +71,7 @@ class ColorConsistency {
   std::vector<View> views_;
 };
 
-/// A hypothesis under which the images agree clearly better than as the files say.
+/// A hypothesis under which the images agree clearly better than with the given geometry.
 struct GeometryDoubt {
   GeometryHypothesis hypothesis;
   double as_given = 1.0;  // Value::unexplained

@@ -34,7 +34,7 @@ struct TrainingEvidence {
   std::size_t budget = 0;     // most Gaussians that the user asked for, 0: no such limit
 };
 
-/// At most 200 of the views and 100 000 of the points, evenly spread, stand for all. Uses all threads; deterministic.
+/// From samples of at most 200 views and 100 000 points, evenly spread. Uses all threads; deterministic.
 CloudCoverage cloud_coverage(const PointCloud& cloud, const TrainingViews& views);
 
 /// Whether a point of the cloud is in any image, hidden or not; inverted: if the poses were T_camera_world.

@@ -44,7 +44,7 @@ struct RasterizerOptions {
   bool compensated =
       false;  // opacity times sqrt(det before / det after dilation), as in Mip-Splatting (Yu et al. 2024)
   DepthKind depth_kind = DepthKind::automatic;
-  BlendOrder order = BlendOrder::depth;  // of a map: what its header says (MapHeader)
+  BlendOrder order = BlendOrder::depth;  // of a map: that of its header (MapHeader)
   Shell shell = Shell::automatic;
 
   void check() const;

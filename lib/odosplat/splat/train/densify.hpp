@@ -29,12 +29,13 @@ struct DensifyOptions {
   double growth = 0.05;         // relocate: share by which their number may grow in a round, >= 0
   double pull = 2e-4;           // split: mean gradient on the screen [loss / half image] from which one is cloned or
                                 // split, > 0
-  double split_size = 0.01;     // split: largest axis [camera extents] from which it is split, not cloned, > 0, within
-                                // the next two limits:
-  double least_split_px = 0.5;  // least size in the images [px], >= 0, as one smaller than a pixel need not be split;
-                                // and largest
-  double most_split_px = 4.0;   // size, as one over several pixels hides detail. The camera extent says little of
-                                // either if cameras hardly move, or cross a building. 0 and infinity: the extent alone
+  double split_size = 0.01;     // split: largest axis [camera extents] from which it is split, not cloned, > 0; kept
+                                // between the next two limits
+  double least_split_px = 0.5;  // least such size in the images [px], >= 0: one smaller than a pixel need not be split;
+                                // 0: no limit
+  double most_split_px = 4.0;   // largest such size [px]: one over several pixels hides detail; infinity: no limit. The
+                                // camera extent alone says nothing about sizes in images if cameras hardly move or
+                                // cross a building
   double largest_size = 0.5;    // split: removed if an axis is longer [camera extents], > 0; where growth is limited
                                 // none is removed for its size
   int reset_interval = 0;       // split: opacities fall to reset_opacity this often [iterations], 0: never
