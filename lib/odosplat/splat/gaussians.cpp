@@ -61,10 +61,10 @@ void Gaussians::resize(std::size_t n) {
 void Gaussians::check() const {
   require(sh_degree >= 0 && sh_degree <= 3, "sh_degree", "0 to 3");
   const std::size_t n = size();
-  require(positions.size() == 3 * n, "positions", "three a Gaussian");
-  require(log_scales.size() == 3 * n, "log_scales", "three a Gaussian");
-  require(rotations.size() == 4 * n, "rotations", "four a Gaussian");
-  require(sh.size() == 3 * n * static_cast<std::size_t>(coefficients()), "sh", "3 (sh_degree + 1)^2 a Gaussian");
+  require(positions.size() == 3 * n, "positions", "three per Gaussian");
+  require(log_scales.size() == 3 * n, "log_scales", "three per Gaussian");
+  require(rotations.size() == 4 * n, "rotations", "four per Gaussian");
+  require(sh.size() == 3 * n * static_cast<std::size_t>(coefficients()), "sh", "3 (sh_degree + 1)^2 per Gaussian");
 }
 
 }  // namespace odosplat

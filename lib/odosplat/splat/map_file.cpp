@@ -167,10 +167,10 @@ Map near_origin(const std::string& name, Map map) {
 
 void write_splat(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
   if (blend_order_from_lines(notes) == BlendOrder::distance) {
-    log_warning(path + ": .splat cannot say that these Gaussians are sorted by distance (train --blend-order depth)");
+    log_warning(path + ": .splat cannot store that these Gaussians are sorted by distance (train --blend-order depth)");
   }
   if (gaussians.sh_degree > 0) {
-    log_warning(path + ": .splat has no place for the colour's change with direction: harmonics of degree 1 to " +
+    log_warning(path + ": .splat stores no colour that depends on direction: harmonics of degree 1 to " +
                 std::to_string(gaussians.sh_degree) + " are left out");
   }
   write_file_atomically(path, splat_bytes(gaussians));

@@ -21,7 +21,7 @@ void require_seen(const std::string& name, const PointCloud& cloud, const Traini
   const bool inverted = any_in_view(cloud, views, true);
   throw InputError(name, std::string("no image sees any of its points: ") +
                              (inverted ? "the poses are inverted, or not in the cloud's frame"
-                                       : "poses and cloud are not in one frame, or not in metres both"));
+                                       : "poses and cloud are in different frames, or not both in metres"));
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ TrainingStart prepare_training(PointCloud cloud, const std::string& name, const 
   const ColorConsistency::Value given = consistency.of({});
   start.consistency = given.points >= least_points ? given.unexplained : -1.0;
   start.doubt = geometry_doubt(consistency);
-  notify(stage, "what the images see of the cloud");
+  notify(stage, "how much of the cloud the images see");
   start.coverage = cloud_coverage(start.cloud, views);
   notify(stage, "colouring the cloud");
   if (!start.cloud.has_colors()) color_from_views(start.cloud, views);
@@ -46,7 +46,7 @@ TrainingStart prepare_training(PointCloud cloud, const std::string& name, const 
   if (options.shape != InitialShape::discs) return start;
   notify(stage, "smoothing the cloud");
   const PointCloud smoothed = smoothed_cloud(start.cloud, options);
-  notify(stage, "the cloud's surface");
+  notify(stage, "interpolating the cloud's surface");
   start.surface = std::make_unique<InterpolationView>(smoothed);
   start.shared_sigma = noise_left(start.cloud, smoothed, options);
   return start;
@@ -58,7 +58,7 @@ TrainedMap finish_training(const compute::Context& context, const Trainer& train
   made.training = trainer.report();
   made.map.gaussians = trainer.gaussians();
   const Gaussians& gaussians = made.map.gaussians;
-  notify(stage, "judging the map by its images");
+  notify(stage, "comparing the map with its images");
   made.views =
       view_qualities(context, gaussians, views, start.surface.get(), trainer.exposures(), trainer.options().rasterizer);
   const TrainingEvidence evidence{trainer.iteration(), facts.usual_iterations, gaussians.size(), start.cloud.size(),
@@ -76,7 +76,7 @@ TrainedMap finish_training(const compute::Context& context, const Trainer& train
   add(place_lines(thinned_places(poses)));
   add(facts.notes);
   if (start.surface != nullptr) {
-    notify(stage, "how sure the map's depth is");
+    notify(stage, "calibrating the uncertainty of the map's depth");
     SigmaCalibrationOptions options;
     options.rasterizer = trainer.options().rasterizer;
     options.shared_sigma = start.shared_sigma;

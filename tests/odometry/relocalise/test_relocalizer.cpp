@@ -123,7 +123,7 @@ TEST_F(RelocalizerTest, RefusesWhatShowsNothing) {
   for (const float grey : {0.0F, 0.5F, 1.0F}) {
     const Relocalization answer = relocalizer.find(GrayImage(camera_.height, camera_.width, grey));
     EXPECT_FALSE(answer.found);
-    EXPECT_EQ(answer.reason, "the image shows nothing");
+    EXPECT_EQ(answer.reason, "the image has almost no contrast");
   }
   EXPECT_EQ(room_.renders, 0) << "a blank image is not worth a look at the map";
 }
@@ -139,7 +139,7 @@ TEST_F(RelocalizerTest, RefusesAnEmptyMapAndNoPlaces) {
   Relocalizer grey(camera_, colourless, places());
   EXPECT_FALSE(grey.find(image).found);
   Relocalizer nowhere(camera_, room_, {});
-  EXPECT_EQ(nowhere.find(image).reason, "no places to look from are known");
+  EXPECT_EQ(nowhere.find(image).reason, "no poses to render the map from are given");
 }
 
 TEST_F(RelocalizerTest, AKnownPoseNearbyHelps) {

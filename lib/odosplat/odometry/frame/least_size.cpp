@@ -12,8 +12,8 @@ namespace odosplat {
 void check_least_size(const Camera& camera) {
   constexpr int least_side = 16;
   require(std::min(camera.width, camera.height) >= least_side, "images",
-          "at least 16x16 pixels for a camera to be followed or found by them, are " + std::to_string(camera.width) +
-              "x" + std::to_string(camera.height));
+          "at least 16x16 pixels for tracking and relocalisation, are " + std::to_string(camera.width) + "x" +
+              std::to_string(camera.height));
 }
 
 }  // namespace odosplat

@@ -107,7 +107,7 @@ std::string fault_of(const PoseEvidence& evidence, const PoseVerifierOptions& op
   } else if (evidence.blocks < options.min_blocks) {
     std::snprintf(text, sizeof(text), "only %d parts of the view have texture", evidence.blocks);
   } else if (evidence.score < options.min_score) {
-    std::snprintf(text, sizeof(text), "image and map agree by %.2f", evidence.score);
+    std::snprintf(text, sizeof(text), "image and map correlate by only %.2f", evidence.score);
   }
   return text;
 }

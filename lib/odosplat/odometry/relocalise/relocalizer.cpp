@@ -82,11 +82,12 @@ Relocalization Relocalizer::look_up(const GrayImage& image, const std::optional<
   cv::Scalar spread;
   cv::meanStdDev(image, mean, spread);
   if (!(spread[0] >= options_.min_spread)) {
-    result.reason = "the image shows nothing";
+    result.reason = "the image has almost no contrast";
     return result;
   }
   if (prepare() == 0) {
-    result.reason = given_places_.empty() ? "no places to look from are known" : "the map shows nothing at its places";
+    result.reason = given_places_.empty() ? "no poses to render the map from are given"
+                                          : "too little of the map is visible from the given poses";
     return result;
   }
   const GrayImage gray = resized_gray(image, index_->camera());
@@ -238,7 +239,7 @@ Relocalizer::Finalist Relocalizer::verify(const Candidate& candidate, const Fram
         aligner_.align(reference, image, SE3::exp(away), candidate.alignment.brightness, image.levels() - 1, 0);
     const SE3 difference = back.T_target_host.inverse() * alignment.T_target_host;
     if (!back.finished || !(difference.translation().norm() <= options_.return_distance)) {
-      finalist.fault = "alignment from nearby ends elsewhere";
+      finalist.fault = "alignment from a slightly different start ends at another pose";
       return finalist;
     }
   }

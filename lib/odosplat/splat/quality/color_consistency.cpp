@@ -40,11 +40,11 @@ std::string GeometryHypothesis::words() const {
     return text;
   }
   if (focal != 1.0) {
-    std::snprintf(text, sizeof(text), "the focal length is wrong (%.2f of it fits better)", focal);
+    std::snprintf(text, sizeof(text), "the focal length is wrong (%.2f times the given one fits better)", focal);
     return text;
   }
-  std::snprintf(text, sizeof(text), "the cloud lies %.2f m off the poses' frame (%+.2f %+.2f %+.2f m)", offset.norm(),
-                offset.x(), offset.y(), offset.z());
+  std::snprintf(text, sizeof(text), "the cloud lies %.2f m off the frame of the poses (%+.2f %+.2f %+.2f m)",
+                offset.norm(), offset.x(), offset.y(), offset.z());
   return text;
 }
 

@@ -80,10 +80,10 @@ std::string likely_cause(const MapQuality& q, const Judgement& j, const std::opt
   if (doubt) {
     add(doubt->hypothesis.words());
   } else if (j.inconsistent && q.consistency > no_relation) {
-    add("a cloud of another place than the images, or turned, or poses that are not these images'");
+    add("a cloud of another place, a rotated cloud, or poses of other images");
   } else if (j.inconsistent) {
-    add("a camera file that is not this camera's, depth that is not registered to colour, a cloud that is turned or "
-        "off, or wrong poses");
+    add("the calibration of another camera, depth that is not registered to colour, a rotated or shifted cloud, or "
+        "wrong poses");
   }
   // A short training does not make images disagree with a cloud.
   const bool of_training = j.unlike && !j.inconsistent && !j.unseen;
@@ -97,8 +97,8 @@ std::string likely_cause(const MapQuality& q, const Judgement& j, const std::opt
         " points");
   }
   if (j.odd) add("wrong poses of those images, or things that moved");
-  if (j.unseen) add("images of another place than most of the cloud");
-  return causes.empty() ? "; cause not known: cloud, poses and camera agree as far as the images tell"
+  if (j.unseen) add("most of the cloud lies outside the images");
+  return causes.empty() ? "; cause unknown: the images show no error of cloud, poses or camera"
                         : "; likely cause: " + causes;
 }
 
@@ -145,8 +145,8 @@ MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage&
     return q;
   }
   if (q.images < least_images) {
-    q.verdict = "not judged: it was trained on " + count_of(q.images) +
-                " only, which a map fits whatever its geometry (" + printed("%.1f dB", q.psnr_db) + ")";
+    q.verdict = "not judged: it was trained on " + count_of(q.images) + " only, which a map of any geometry can fit (" +
+                printed("%.1f dB", q.psnr_db) + ")";
     return q;
   }
   q.good = true;

@@ -249,7 +249,7 @@ void Rasterizer::Impl::prepare(const DeviceGaussians& gaussians, const Camera& c
   wanted.sigma_model.check();
   require(!wanted.sigma ||
               (wanted.depth && (wanted.depth_mode == DepthMode::expected || wanted.depth_mode == DepthMode::surface)),
-          "sigma", "asked for together with expected depth");
+          "sigma", "asked for only with expected or surface depth");
   require(wanted.sh_degree >= 0, "sh_degree", "0 or more");
   rendered = false;
   count = gaussians.size();

@@ -85,12 +85,12 @@ void Exposures::check_state(const std::vector<double>& state, int iterations) co
     const double* mine = &state[at];
     require(std::all_of(mine, mine + row, [](double v) { return std::isfinite(v); }), "exposures", "finite");
     require(std::all_of(mine + 2 * settings, mine + 3 * settings, [](double v) { return v >= 0.0; }), "exposures",
-            "such that no mean of squares is negative");
+            "without negative means of squares");
     require(mine[row - 1] >= 0.0 && mine[row - 1] == std::floor(mine[row - 1]), "exposures",
             "of whole numbers of steps");
     steps += mine[row - 1];
   }
-  require(steps == (on() ? iterations : 0), "exposures", "of one step an iteration");
+  require(steps == (on() ? iterations : 0), "exposures", "with one step per iteration in total");
 }
 
 void Exposures::set_state(const std::vector<double>& state, int iterations) {

@@ -192,8 +192,8 @@ void Trainer::guard() {
   char numbers[96];
   std::snprintf(numbers, sizeof(numbers), "fell from %.1f to %.1f dB by step %d", guard_.best_db(), guard_.last_db(),
                 fallen_at);
-  log_warning(std::string("training ") + numbers + ": back at step " + std::to_string(iteration_) +
-              (ended_early_ ? ", where it ends" : ", from where it goes on without densification"));
+  log_warning(std::string("training ") + numbers + ": restored to step " + std::to_string(iteration_) +
+              (ended_early_ ? ", where training ends" : ", from where training goes on without densification"));
 }
 
 void Trainer::update() {

@@ -32,7 +32,7 @@ void TrainerOptions::check() const {
   require_rate(opacity_rate, "opacity_rate");
   require_rate(color_rate, "color_rate");
   require_rate(sh_rate, "sh_rate");
-  require(color_rate > 0.0 || sh_rate == 0.0, "sh_rate", "0 where color_rate is");
+  require(color_rate > 0.0 || sh_rate == 0.0, "sh_rate", "0 if color_rate is 0");
   require(final_share > 0.0 && final_share <= 1.0, "final_share", "above 0, at most 1");
   require(largest_growth == 0.0 || largest_growth >= 1.0, "largest_growth", "0 or at least 1");
   loss.check();
