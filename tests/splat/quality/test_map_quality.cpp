@@ -94,7 +94,7 @@ TEST(JudgeMap, NamesOnlyCausesThatTheEvidenceBears) {
   for (ViewQuality& view : low) view.psnr_db = 12.0;
   const TrainingEvidence full{.iterations = 4000, .usual_iterations = 4000, .gaussians = 9000, .points = 9000};
   const std::string unknown = judge_map(low, {}, 0.1, std::nullopt, full).verdict;
-  EXPECT_THAT(unknown, HasSubstr("cause not known"));
+  EXPECT_THAT(unknown, HasSubstr("cause unknown"));
   EXPECT_THAT(unknown, testing::Not(HasSubstr("likely cause")));
   TrainingEvidence brief = full;
   brief.iterations = 100;
