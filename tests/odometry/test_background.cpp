@@ -226,11 +226,11 @@ TEST(KeyframeThread, ANewerRequestReplacesOneThatWaits) {
   KeyframeThread thread(backend);
   const auto request = [&](int k) {
     KeyframeRequest r;
-    r.frame = k;
-    r.time = k;
-    r.T_world_camera = test::room_path(k);
-    r.image =
-        make_even(std::make_shared<FramePyramid>(build_frame_pyramid(camera, map.gray(camera, r.T_world_camera))));
+    r.frame.number = k;
+    r.frame.time = k;
+    r.frame.T_world_camera = test::room_path(k);
+    r.frame.image = make_even(
+        std::make_shared<FramePyramid>(build_frame_pyramid(camera, map.gray(camera, r.frame.T_world_camera))));
     return r;
   };
   // While it renders ahead, requests wait.
@@ -240,7 +240,7 @@ TEST(KeyframeThread, ANewerRequestReplacesOneThatWaits) {
   EXPECT_TRUE(thread.request(request(2)));
   const auto finished = thread.wait();
   ASSERT_TRUE(finished.has_value());
-  EXPECT_EQ(finished->request.frame, 2);
+  EXPECT_EQ(finished->request.frame.number, 2);
   EXPECT_EQ(finished->request.id, 0);
   ASSERT_TRUE(finished->outcome.made);
   EXPECT_FALSE(finished->outcome.prefetched);  // rendered somewhere else
@@ -264,8 +264,8 @@ TEST(KeyframeBackend, AViewRenderedAheadIsUsedFromNearbyOnly) {
     KeyframeBackend backend(camera, map, aligner, {});
     backend.prefetch(T_world_camera * (near ? beside : away));
     KeyframeRequest request;
-    request.T_world_camera = T_world_camera;
-    request.image =
+    request.frame.T_world_camera = T_world_camera;
+    request.frame.image =
         make_even(std::make_shared<FramePyramid>(build_frame_pyramid(camera, map.gray(camera, T_world_camera), 0.8)));
     const KeyframeOutcome outcome = backend.add(request);
     ASSERT_TRUE(outcome.made);

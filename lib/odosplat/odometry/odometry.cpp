@@ -87,16 +87,16 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
   take_over(keyframes_->take());
   KeyframeRequest request;
   request.view = std::move(view);
-  request.frame = counts_.frames;
-  request.time = time;
+  request.frame.number = counts_.frames;
+  request.frame.time = time;
   {
     const StageTimer timer(stages_[stage_pyramid]);
-    request.image =
+    request.frame.image =
         make_even(std::make_shared<FramePyramid>(build_frame_pyramid(camera_, image, options_.keyframe.smoothing)));
   }
   TrackResult result;
   ++counts_.frames;
-  if (shows_nothing(*request.image.taken)) {
+  if (shows_nothing(*request.frame.image.taken)) {
     // A covered lens is not worth a search.
   } else if (!front_.empty()) {
     follow(image, request, result);
@@ -104,7 +104,7 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
     relocalise(image, request, result);
   } else {
     // Until there is a keyframe, the camera is at the caller's start pose.
-    request.T_world_camera = *T_world_camera_start_;
+    request.frame.T_world_camera = *T_world_camera_start_;
     const bool made = make_keyframe(request, result);
     if (made && !stands(keyframe_evidence_, keyframe_misfit_, true)) {
       refuse(image, request, result, keyframe_evidence_);
@@ -135,44 +135,42 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
 }
 
 void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackResult& result) {
-  TrackedFrame frame;
+  TrackedFrame tracked;
   {
     const StageTimer timer(stages_[stage_track]);
-    frame = front_.track(request.image.taken, request.time);
+    tracked = front_.track(request.frame);
   }
-  result.inlier_share = frame.alignment.inlier_share;
-  result.coverage = frame.alignment.coverage;
-  result.rmse = frame.alignment.rmse;
-  result.correlation = frame.alignment.correlation;
-  if (!frame.found) {
+  result.inlier_share = tracked.alignment.inlier_share;
+  result.coverage = tracked.alignment.coverage;
+  result.rmse = tracked.alignment.rmse;
+  result.correlation = tracked.alignment.correlation;
+  if (!tracked.found) {
     relocalise(image, request, result);
     return;
   }
-  result.evidence = frame.evidence;
-  if (frame.verifiable &&
-      !stands(frame.evidence, frame.misfit, frame.was_lost || frame.after_gap || to_be_confirmed_)) {
-    refuse(image, request, result, frame.evidence);
+  result.evidence = tracked.evidence;
+  if (tracked.verifiable &&
+      !stands(tracked.evidence, tracked.misfit, tracked.was_lost || tracked.after_gap || to_be_confirmed_)) {
+    refuse(image, request, result, tracked.evidence);
     return;
   }
-  if (frame.doubtful && relocalise(image, request, result, frame.T_world_camera)) return;
-  result.status = frame.was_lost ? TrackStatus::relocalised : TrackStatus::ok;
-  result.T_world_camera = frame.T_world_camera;
-  result.covariance = options_.frame_covariance_factor * frame.covariance +
-                      options_.keyframe_covariance_factor * frame.keyframe_covariance + frame.misfit.covariance;
-  result.misfit = frame.misfit.meters;
-  record_.add_frame(request.time, frame.keyframe, frame.T_keyframe_camera, frame.was_lost);
-  request.T_world_camera = frame.T_world_camera;
-  request.brightness = frame.brightness;
-  request.image = frame.image;
-  keyframes_->observe({frame.image.even, frame.T_world_camera, frame.brightness});
-  if (frame.keyframe_due()) {
+  if (tracked.doubtful && relocalise(image, request, result, tracked.frame.T_world_camera)) return;
+  result.status = tracked.was_lost ? TrackStatus::relocalised : TrackStatus::ok;
+  result.T_world_camera = tracked.frame.T_world_camera;
+  result.covariance = options_.frame_covariance_factor * tracked.covariance +
+                      options_.keyframe_covariance_factor * tracked.keyframe_covariance + tracked.misfit.covariance;
+  result.misfit = tracked.misfit.meters;
+  record_.add_frame(request.frame.time, tracked.keyframe, tracked.T_keyframe_camera, tracked.was_lost);
+  request.frame = tracked.frame;
+  keyframes_->observe(tracked.frame);
+  if (tracked.keyframe_due()) {
     if (!make_keyframe(request, result)) return;
     if (keyframe_evidence_.verdict == Confirmation::confirmed) result.evidence = keyframe_evidence_;
     if (to_be_confirmed_ && result.evidence.verdict != Confirmation::confirmed) {
       refuse(image, request, result, keyframe_evidence_);
     }
   } else if (keyframes_->renders_ahead() && request.view == nullptr) {
-    render_ahead(frame, request.time);
+    render_ahead(tracked);
   }
 }
 
@@ -231,8 +229,8 @@ bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request
     if (T_tracked_found.translation().norm() < same_distance && T_tracked_found.angle() < same_angle) return false;
   }
   KeyframeRequest afresh = request;
-  afresh.T_world_camera = answer.T_world_camera;
-  afresh.brightness = {};
+  afresh.frame.T_world_camera = answer.T_world_camera;
+  afresh.frame.brightness = {};
   afresh.fresh = true;
   TrackResult made;
   front_.lose();  // the motion that led here is unknown, and the estimates for this frame do not hold
@@ -276,26 +274,27 @@ void Odometry::take_over(const std::optional<FinishedKeyframe>& finished) {
   counts_.likely_cause = outcome.likely_cause;
   in_map_ = outcome.in_map;
   const ReferenceFrame& keyframe = outcome.window.back();
-  record_.add_keyframe(request.time, keyframe.T_world_camera, request.fresh);
+  record_.add_keyframe(request.frame.time, keyframe.T_world_camera, request.fresh);
   for (const ReferenceFrame& k : outcome.window) record_.move_keyframe(k.id, k.T_world_camera);
   ++counts_.keyframes;
   if (outcome.anchored) ++counts_.anchored;
   if (outcome.prefetched) ++counts_.prefetched;
-  front_.set_references(outcome.window, keyframe.T_world_camera * request.T_world_camera.inverse());
+  front_.set_references(outcome.window, keyframe.T_world_camera * request.frame.T_world_camera.inverse());
   to_be_confirmed_ =
       in_map_ && outcome.evidence.verdict != Confirmation::none && !stands(outcome.evidence, outcome.misfit, false);
 }
 
-void Odometry::render_ahead(const TrackedFrame& frame, double time) {
+void Odometry::render_ahead(const TrackedFrame& tracked) {
+  const double time = tracked.frame.time;
   MotionHistory history = front_.history();
-  if (rendered_ahead_ || frame.was_lost || !history.has_last || !(frame.keyframe_score > 0.0)) return;
+  if (rendered_ahead_ || tracked.was_lost || !history.has_last || !(tracked.keyframe_score > 0.0)) return;
   // The score grows about evenly with time from 0 at the keyframe.
-  const double keyframe_time = record_.keyframe_time(frame.keyframe);
-  const double due = keyframe_time + (time - keyframe_time) / frame.keyframe_score;
+  const double keyframe_time = record_.keyframe_time(tracked.keyframe);
+  const double due = keyframe_time + (time - keyframe_time) / tracked.keyframe_score;
   const double interval = time - history.last_time;
   const double images = std::ceil((due - time) / interval);
   if (!(images <= options_.prefetch_images)) return;
-  history.add(time, frame.T_world_camera);
+  history.add(time, tracked.frame.T_world_camera);
   keyframes_->prefetch(predict(history, time + images * interval));
   rendered_ahead_ = true;
 }

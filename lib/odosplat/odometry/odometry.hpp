@@ -169,7 +169,7 @@ class Odometry {
   /// Asks for a keyframe and writes it into the result. False: there is none, or not yet.
   bool make_keyframe(const KeyframeRequest& request, TrackResult& result);
   void take_over(const std::optional<FinishedKeyframe>& finished);
-  void render_ahead(const TrackedFrame& frame, double time);
+  void render_ahead(const TrackedFrame& tracked);
 
   Camera camera_;
   OdometryOptions options_;

@@ -35,44 +35,45 @@ FrameTracker::FrameTracker(const FrameTrackerOptions& options) : options_(option
   options_.check();
 }
 
-TrackedFrame FrameTracker::track(std::shared_ptr<const FramePyramid> pyramid, double time) {
-  TrackedFrame frame;
-  frame.was_lost = lost_;
+TrackedFrame FrameTracker::track(const PosedFrame& frame) {
+  TrackedFrame tracked;
+  tracked.frame = frame;
+  tracked.was_lost = lost_;
   // The row gain of flickering light changes little from frame to frame: the last one is a good start.
-  frame.image = make_even(std::move(pyramid), last_row_gain_);
-  if (!lost_) frame.alignment = track_against_reference(*frame.image.even, time);
-  if (lost_ || !believed(frame.alignment, false)) frame.alignment = search_references(*frame.image.even);
-  frame.found = believed(frame.alignment, lost_);
-  if (!frame.found) return frame;
-  even_rows(aligner_, *reference().points, frame.image, frame.alignment);
-  last_row_gain_ = frame.image.row_gain;
-  const Alignment& alignment = frame.alignment;
+  tracked.frame.image = make_even(frame.image.taken, last_row_gain_);
+  if (!lost_) tracked.alignment = track_against_reference(*tracked.frame.image.even, frame.time);
+  if (lost_ || !believed(tracked.alignment, false)) tracked.alignment = search_references(*tracked.frame.image.even);
+  tracked.found = believed(tracked.alignment, lost_);
+  if (!tracked.found) return tracked;
+  even_rows(aligner_, *reference().points, tracked.frame.image, tracked.alignment);
+  last_row_gain_ = tracked.frame.image.row_gain;
+  const Alignment& alignment = tracked.alignment;
   const ReferenceFrame& host = reference();
-  frame.doubtful = !lost_ && !as_good_as_last(alignment) && alignment.correlation < options_.accept.sure_correlation;
-  frame.after_gap = history_.has_velocity && steps_ahead(history_, time) == 0.0;
-  frame.keyframe = host.id;
-  frame.T_keyframe_camera = alignment.T_target_host.inverse();
-  frame.T_world_camera = host.T_world_camera * frame.T_keyframe_camera;
-  frame.brightness = compose_brightness(alignment.brightness, host.brightness);
+  tracked.doubtful = !lost_ && !as_good_as_last(alignment) && alignment.correlation < options_.accept.sure_correlation;
+  tracked.after_gap = history_.has_velocity && steps_ahead(history_, frame.time) == 0.0;
+  tracked.keyframe = host.id;
+  tracked.T_keyframe_camera = alignment.T_target_host.inverse();
+  tracked.frame.T_world_camera = host.T_world_camera * tracked.T_keyframe_camera;
+  tracked.frame.brightness = compose_brightness(alignment.brightness, host.brightness);
   if (host.patches != nullptr) {
-    frame.evidence = host.patches->compare(*frame.image.even, frame.T_world_camera);
-    frame.verifiable = host.in_map;
-    frame.misfit = host.misfit;
+    tracked.evidence = host.patches->compare(*tracked.frame.image.even, tracked.frame.T_world_camera);
+    tracked.verifiable = host.in_map;
+    tracked.misfit = host.misfit;
   }
   // exp(xi) right of T_target_host is exp(-Ad xi) left of T_world_camera.
   const Matrix6d adjoint = host.T_world_camera.adjoint();
   Matrix6d information = alignment.information;
   information.diagonal().array() += 1e-9;
-  frame.covariance = adjoint * information.inverse() * adjoint.transpose();
-  frame.keyframe_covariance = host.covariance;
+  tracked.covariance = adjoint * information.inverse() * adjoint.transpose();
+  tracked.keyframe_covariance = host.covariance;
   relative_brightness_ = alignment.brightness;
-  last_brightness_ = frame.brightness;
+  last_brightness_ = tracked.frame.brightness;
   last_rmse_ = alignment.rmse;
   last_inlier_share_ = alignment.inlier_share;
   const double first_rmse = first_rmse_;
   if (first_rmse_ <= 0.0) first_rmse_ = std::max(alignment.rmse, 1.0 / 255);
-  frame.keyframe_score = keyframe_score(*host.points, alignment, first_rmse, options_.policy).score;
-  return frame;
+  tracked.keyframe_score = keyframe_score(*host.points, alignment, first_rmse, options_.policy).score;
+  return tracked;
 }
 
 void FrameTracker::set_references(std::vector<ReferenceFrame> references, const SE3& T_new_old) {

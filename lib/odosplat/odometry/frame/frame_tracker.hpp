@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "odosplat/odometry/align/image_aligner.hpp"
-#include "odosplat/odometry/frame/even_rows.hpp"
 #include "odosplat/odometry/frame/motion_model.hpp"
+#include "odosplat/odometry/frame/posed_frame.hpp"
 #include "odosplat/odometry/frame/reference_frame.hpp"
 #include "odosplat/odometry/keyframe/keyframe_policy.hpp"
 
@@ -48,12 +48,10 @@ struct FrameTrackerOptions {
 struct TrackedFrame {
   bool found = false;
   bool was_lost = false;  // tracking was lost before this frame
-  EvenFrame image;        // as it was compared
+  PosedFrame frame;       // its image as it was compared
   Alignment alignment;    // against the reference
   int keyframe = -1;      // the reference's number
   SE3 T_keyframe_camera;
-  SE3 T_world_camera;
-  Brightness brightness;  // of the frame itself
   // Of exp(xi) on the left of T_world_camera, before any factor: of the alignment alone, and of the keyframe.
   Matrix6d covariance = Matrix6d::Zero();
   Matrix6d keyframe_covariance = Matrix6d::Zero();
@@ -77,9 +75,9 @@ class FrameTracker {
   /// Not if empty().
   const ReferenceFrame& newest() const { return references_.back(); }
 
-  /// Finds the frame. Afterwards the caller must call confirm() with the final pose, which a new keyframe may have
+  /// Finds the frame, of which number, time and image count. Afterwards the caller must call confirm() with the final pose, which a new keyframe may have
   /// changed, or lose().
-  TrackedFrame track(std::shared_ptr<const FramePyramid> pyramid, double time);
+  TrackedFrame track(const PosedFrame& frame);
 
   /// Takes over the back end's keyframes (oldest first, not empty). If the newest is new, frames are aligned with it
   /// from now on; otherwise with the same keyframe as before, if that is still there. T_new_old: correction that the

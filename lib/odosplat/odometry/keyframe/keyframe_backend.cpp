@@ -54,13 +54,13 @@ KeyframeBackend::KeyframeBackend(const Camera& camera, MapView& map, const Image
   options_.check();
 }
 
-void KeyframeBackend::trace(const TrackedImage& image) {
+void KeyframeBackend::trace(const PosedFrame& frame) {
   const StageTimer timer(stages_[stage_trace]);
-  const SE3 T_camera_world = image.T_world_camera.inverse();
+  const SE3 T_camera_world = frame.T_world_camera.inverse();
   for (const auto& host : window_.keyframes) {
     if (host->immature.empty()) continue;
-    trace_points(host->immature, T_camera_world * host->T_world_camera, camera_, image.pyramid->gray.front(),
-                 relative_brightness(image.brightness, host->brightness), options_.keyframe.immature);
+    trace_points(host->immature, T_camera_world * host->T_world_camera, camera_, frame.image.even->gray.front(),
+                 relative_brightness(frame.brightness, host->brightness), options_.keyframe.immature);
   }
 }
 
@@ -86,7 +86,7 @@ MadeKeyframe KeyframeBackend::make_from(const RenderedView& view, const Keyframe
                                         std::vector<GradientImage>& gradients) {
   const StageTimer timer(stages_[stage_keyframe]);
   const auto make = [&] {
-    return maker_.make(image, gradients, view.images, view.T_world_camera, request.brightness, aligner_, context);
+    return maker_.make(image, gradients, view.images, view.T_world_camera, request.frame.brightness, aligner_, context);
   };
   MadeKeyframe made = make();
   if (!made.evened) return made;
@@ -135,20 +135,20 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, E
   MapView& map = request.view != nullptr ? *request.view : map_;
   KeyframeContext context;
   context.first = window_.keyframes.empty();
-  context.other_points = static_cast<int>(points_seen_from(request.T_world_camera).size());
+  context.other_points = static_cast<int>(points_seen_from(request.frame.T_world_camera).size());
   context.distrust_map = outside_;
   // The view rendered ahead has another pose than the frame. The anchor's alignment finds the frame's pose in it;
   // without an anchor, no keyframe can be made from it.
   std::optional<RenderedView> ahead = std::exchange(prefetched_, std::nullopt);
   if (ahead && (!anchor.enabled || request.view != nullptr ||
-                view_flow(camera_, *ahead, request.T_world_camera) > anchor.render_again_flow)) {
+                view_flow(camera_, *ahead, request.frame.T_world_camera) > anchor.render_again_flow)) {
     ahead.reset();
   }
   Attempt result;
   result.prefetched = ahead.has_value();
-  RenderedView view = ahead ? std::move(*ahead) : seen_from(map, request.T_world_camera);
+  RenderedView view = ahead ? std::move(*ahead) : seen_from(map, request.frame.T_world_camera);
   if (anchor.enabled && request.view == nullptr && map_share(view.images) < memory_.options().map_share) {
-    std::vector<Recollection> recalled = recall(*image.even, request.T_world_camera);
+    std::vector<Recollection> recalled = recall(*image.even, request.frame.T_world_camera);
     if (!recalled.empty()) {
       const SE3& T_world_keyframe = recalled.front().T_world_camera;
       if (view_flow(camera_, view, T_world_keyframe) > recalled_flow) view = seen_from(map, T_world_keyframe);
@@ -167,12 +167,12 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, E
     }
     made = make_from(view, request, context, image, gradients);
     if (result.prefetched && !made.anchored) {
-      T_world_keyframe = request.T_world_camera;
+      T_world_keyframe = request.frame.T_world_camera;
       continue;
     }
     if (!made.anchored) break;
     corrected = std::max(corrected, result.prefetched ? view_flow(camera_, {made.T_world_camera_map, view.images},
-                                                                  request.T_world_camera)
+                                                                  request.frame.T_world_camera)
                                                       : made.map_flow);
     T_world_keyframe = made.T_world_camera_map;
     if (made.map_flow <= anchor.render_again_flow) break;
@@ -181,7 +181,7 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, E
   if (outside_ && corrected > 0.0 && (!made.anchored || made.map_flow > anchor.render_again_flow)) {
     // The map gave a pose but did not confirm it in the view rendered from there: the camera is not back in the map.
     const double map_share = made.map_share;
-    made = make_from({request.T_world_camera, {}}, request, context, image, gradients);
+    made = make_from({request.frame.T_world_camera, {}}, request, context, image, gradients);
     made.map_share = map_share;
     corrected = 0.0;
   } else if (made.anchored && made.keyframe != nullptr) {
@@ -226,7 +226,7 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
     window_.prior.clear();
     outside_ = false;
   }
-  EvenFrame image = request.image;
+  EvenFrame image = request.frame.image;
   std::vector<GradientImage> gradients;
   {
     const StageTimer timer(stages_[stage_keyframe]);
@@ -242,13 +242,14 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   outcome.in_map = made.in_map;
   const std::shared_ptr<Keyframe>& keyframe = made.keyframe;
   keyframe->id = request.id;
-  keyframe->frame = request.frame;
-  keyframe->time = request.time;
+  keyframe->frame = request.frame.number;
+  keyframe->time = request.frame.time;
   keyframe->T_world_tracked = keyframe->T_world_camera;
   keyframe->patches = patches;
   keyframe->in_map = made.in_map;
   const bool far = corrected > options_.keyframe.anchor.reset_flow;
-  if (made.anchored && (outside_ || far)) come_back(keyframe->T_world_camera * request.T_world_camera.inverse(), far);
+  if (made.anchored && (outside_ || far))
+    come_back(keyframe->T_world_camera * request.frame.T_world_camera.inverse(), far);
   if (!made.in_map) {
     outside_ = true;
   } else if (made.anchored || !made.verifiable) {

@@ -10,6 +10,7 @@
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/odometry/confirm/camera_misfit.hpp"
 #include "odosplat/odometry/confirm/rendered_view.hpp"
+#include "odosplat/odometry/frame/posed_frame.hpp"
 #include "odosplat/odometry/frame/reference_frame.hpp"
 #include "odosplat/odometry/keyframe/keyframe_maker.hpp"
 #include "odosplat/odometry/keyframe/keyframe_memory.hpp"
@@ -48,23 +49,12 @@ struct KeyframeBackendOptions {
   void check() const;
 };
 
-/// A frame that was tracked.
-struct TrackedImage {
-  std::shared_ptr<const FramePyramid> pyramid;
-  SE3 T_world_camera;
-  Brightness brightness;
-};
-
 /// A tracked frame that should become a keyframe.
 struct KeyframeRequest {
-  EvenFrame image;
+  PosedFrame frame;
   std::shared_ptr<MapView> view;  // rendered in place of the map, for example a depth sensor; null: the map
   int id = 0;                     // the keyframe's number, if it is made
-  int frame = 0;                  // counts images from 0
-  double time = 0.0;              // [s]
-  SE3 T_world_camera;
-  Brightness brightness;
-  bool fresh = false;  // the existing keyframes are not to be trusted: the window starts anew with this one
+  bool fresh = false;             // the existing keyframes are not to be trusted: the window starts anew with this one
 };
 
 /// The result of a KeyframeRequest.
@@ -101,7 +91,7 @@ class KeyframeBackend {
   void prefetch(const SE3& T_world_camera);
   /// Narrows the depth of immature points by a tracked frame. For a frame that is to become a keyframe, call it before
   /// add. Costs nothing where the map shows everything.
-  void trace(const TrackedImage& image);
+  void trace(const PosedFrame& frame);
 
   const Window& window() const { return window_; }
   /// render, keyframe, optimise, trace, confirm.

@@ -32,11 +32,11 @@ std::optional<FinishedKeyframe> KeyframeThread::make(KeyframeRequest wanted, boo
   return to_wait ? wait() : std::nullopt;
 }
 
-void KeyframeThread::observe(TrackedImage image) {
+void KeyframeThread::observe(PosedFrame frame) {
   constexpr std::size_t most = 16;
   {
     const std::lock_guard lock(mutex_);
-    observed_.push_back(std::move(image));
+    observed_.push_back(std::move(frame));
     if (observed_.size() > most) observed_.pop_front();
   }
   wake_.notify_one();
@@ -74,14 +74,14 @@ void KeyframeThread::run() {
     if (stop_) return;
     std::optional<KeyframeRequest> request = std::exchange(waiting_, std::nullopt);
     const std::optional<SE3> predicted = std::exchange(predicted_, std::nullopt);
-    const std::deque<TrackedImage> observed = std::exchange(observed_, {});
+    const std::deque<PosedFrame> observed = std::exchange(observed_, {});
     making_ = request.has_value();
     busy_ = !making_;
     lock.unlock();
     std::optional<FinishedKeyframe> finished;
     std::exception_ptr failure;
     try {
-      for (const TrackedImage& image : observed) backend_.trace(image);
+      for (const PosedFrame& frame : observed) backend_.trace(frame);
       if (request) {
         request->id = made_;
         finished = FinishedKeyframe{*request, backend_.add(*request), backend_.stages()};

@@ -34,7 +34,7 @@ class KeyframeThread : public KeyframeWorker {
   std::optional<FinishedKeyframe> make(KeyframeRequest wanted, bool to_wait) override;
 
   /// Of the frames that the back end has no time for, the oldest are dropped.
-  void observe(TrackedImage image) override;
+  void observe(PosedFrame frame) override;
 
   bool renders_ahead() const override { return true; }
   void prefetch(const SE3& T_world_camera) override;
@@ -55,7 +55,7 @@ class KeyframeThread : public KeyframeWorker {
   std::condition_variable rest_;  // something is done
   std::optional<KeyframeRequest> waiting_;
   std::optional<SE3> predicted_;
-  std::deque<TrackedImage> observed_;
+  std::deque<PosedFrame> observed_;
   std::optional<FinishedKeyframe> finished_;
   std::exception_ptr failure_;
   bool making_ = false;

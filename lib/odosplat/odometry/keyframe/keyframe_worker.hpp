@@ -28,7 +28,7 @@ class KeyframeWorker {
   virtual std::optional<FinishedKeyframe> make(KeyframeRequest request, bool wait) = 0;
 
   /// Hands on a tracked frame for KeyframeBackend::trace, which is done before any keyframe that is asked for later.
-  virtual void observe(TrackedImage image) = 0;
+  virtual void observe(PosedFrame frame) = 0;
 
   /// Whether the map can be rendered ahead while frames are tracked.
   virtual bool renders_ahead() const = 0;
@@ -58,7 +58,7 @@ class InlineKeyframes : public KeyframeWorker {
   explicit InlineKeyframes(KeyframeBackend& backend) : backend_(backend) {}
 
   std::optional<FinishedKeyframe> make(KeyframeRequest request, bool wait) override;
-  void observe(TrackedImage image) override { backend_.trace(image); }
+  void observe(PosedFrame frame) override { backend_.trace(frame); }
   bool renders_ahead() const override { return false; }
   void prefetch(const SE3&) override {}
   std::optional<FinishedKeyframe> take() override { return std::nullopt; }
