@@ -31,7 +31,7 @@ struct Camera {
   /// Camera of pyramid level l >= 0, each level half the size (odd last rows and columns are dropped):
   /// u -> (u + 0.5) / 2 - 0.5.
   Camera level(int l) const;
-  /// Camera of the same view at another size; both axes are scaled on their own.
+  /// Camera of the same view at another size; the two axes are scaled independently.
   Camera resized(int new_width, int new_height) const;
 
   bool operator==(const Camera&) const = default;
