@@ -9,7 +9,7 @@
 namespace odosplat {
 
 /// Throws InputError for map and cloud files in formats that odosplat does not read, naming the format and how to
-/// convert it: SPZ, SOG, KSPLAT, glTF, E57, and gzip, ZIP and zstd archives. A format is recognised by the file's first
+/// convert it: SPZ, SOG, KSPLAT, glTF, E57, and gzip, ZIP or zstd archives. A format is recognised by the file's first
 /// bytes (16 are enough) or by its extension. Returns for all other files.
 void refuse_foreign_format(const std::string& name, std::string_view first_bytes);
 

@@ -68,8 +68,9 @@ namespace odosplat {
 /// (require_near_origin).
 ///
 /// Images are decoded on request and not kept, and only after a check that the size in their header is the camera's.
-/// Listed colour files must exist; missing depth or truth is not an error. Errors: InputError naming the file. Copies
-/// share the data. Const calls are thread safe.
+/// Colour files that are listed but missing give one warning, and an error when they are read or if all are missing;
+/// missing depth or truth is not an error. Errors: InputError naming the file. Copies share the data. Const calls are
+/// thread safe.
 class Sequence {
  public:
   static Sequence open(const std::string& path, const SequenceOptions& options = {});
