@@ -24,7 +24,7 @@ constexpr std::size_t most_edges = 4000;   // of an image
 constexpr double least_contrast = 1.15;
 constexpr float noise = 2.0F / 255.0F;  // [1/px] gradient of the grey image that may be due to noise
 
-// A depth edge between two pixels, accurate to half a pixel.
+// A depth edge, half a pixel beyond the last pixel of the nearer surface.
 struct Edge {
   float u, v;       // [px] from the principal point
   bool horizontal;  // found along a row, so that the colour gradient along the row is used

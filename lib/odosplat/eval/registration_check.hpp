@@ -40,7 +40,7 @@ struct RegistrationReport {
   double scale_sigma = 0.0;
   Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d shift_sigma_px = Eigen::Vector2d::Zero();
-  double contrast = 0.0;           // colour gradient at the mapped edges divided by that around them; 1: no edges seen
+  double contrast = 0.0;           // colour gradient at the mapped edges divided by that around them; 1: no contrast
   double declared_contrast = 0.0;  // the same at the declared positions of the edges
   std::size_t edges = 0;
   std::string text;  // one sentence
