@@ -20,11 +20,11 @@ struct Camera {
   /// principal point within 32768 px of the image.
   void check() const;
 
-  /// p_camera [m] with z > 0 to pixel.
+  /// Projects p_camera [m], which must have z > 0, to a pixel.
   Eigen::Vector2d project(const Eigen::Vector3d& p_camera) const {
     return {fx * p_camera.x() / p_camera.z() + cx, fy * p_camera.y() / p_camera.z() + cy};
   }
-  /// Pixel to the point of its ray at depth z = 1.
+  /// The point at depth z = 1 on the ray of a pixel.
   Eigen::Vector3d ray(double u, double v) const { return {(u - cx) / fx, (v - cy) / fy, 1.0}; }
   Eigen::Matrix3d matrix() const;
 

@@ -10,8 +10,8 @@
 
 namespace odosplat {
 
-/// Removes radial and tangential lens distortion (Brown 1966, in OpenCV's form): a point at (x, y) = (X/Z, Y/Z) is seen
-/// at
+/// Removes radial and tangential lens distortion (Brown 1966, in OpenCV's form). The lens shows a point at
+/// (x, y) = (X/Z, Y/Z) at
 ///   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2)
 ///   y' = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y
 /// Images keep the camera's size, focal lengths and principal point. Pixels are 0 where the distorted image does not

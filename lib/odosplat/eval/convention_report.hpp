@@ -22,7 +22,7 @@ struct Convention {
 /// Its relative errors are medians of |difference| / depth.
 struct ConventionRow : PairScores {
   Convention convention;
-  double error_m = 0.0;  // [m] median over pairs of the pair's median |difference|, in the row's own metres
+  double error_m = 0.0;  // [m] median over pairs of the pair's median |difference|, in metres by the row's depth scale
   double overlap = 0.0;  // mean share of pixels that are projected onto a pixel with depth
 };
 

@@ -12,8 +12,7 @@ namespace odosplat {
 /// Determines without any depth image whether and how posed images and a cloud belong together. Patches around the
 /// cloud's visible points are projected from one image into another by the poses and compared there by normalised cross
 /// correlation, which does not depend on brightness and contrast.
-///   1. Readings: all combinations of both signs of fy, the cloud as given or mirrored, and poses as stored or
-///   inverted;
+///   1. Readings: all combinations of both signs of fy, cloud as given or mirrored, and poses as stored or inverted;
 ///      then shifts of the image ids with the best of these and with the declared reading. Readings are compared as in
 ///      check_conventions(): where two cannot be distinguished, the declared one is kept and reported as not decidable.
 ///   2. Fit: scale, offset and rotation of the cloud and the focal length, by least squares over the distances between

@@ -28,10 +28,10 @@ using CloudSink = std::function<void(const CloudBatch&)>;
 ///         as withheld are left out. LAZ is refused.
 ///   text  one point per line, separated by blanks, commas or semicolons (determined by the first point's line); # and
 ///         // start comments; a first line may name the columns (x y z, r g b or red green blue, nx ny nz or normal_x
-///         ..; others, such as intensity, are ignored). Without names: 3 columns are x y z; 4: and something ignored;
-///         6: x y z and r g b, or nx ny nz if they are unit vectors; 7 in files that begin with the number of points
-///         (PTS): x y z intensity r g b; 9: x y z r g b nx ny nz; others are refused. Colours are 0..1 if none is above
-///         1, else 0..255, or 0..65535 if any is above 255 and the columns have names.
+///         ..; others, such as intensity, are ignored). Without names: 3 columns are x y z; 4: x y z and an ignored
+///         one; 6: x y z and r g b, or nx ny nz if they are unit vectors; 7 in files that begin with the number of
+///         points (PTS): x y z intensity r g b; 9: x y z r g b nx ny nz; others are refused. Colours are 0..1 if none
+///         is above 1, else 0..255, or 0..65535 if any is above 255 and the columns have names.
 /// Names of properties, fields and columns may be in upper or lower case. A byte-order mark before a text or a header
 /// is skipped. Unsupported formats of Gaussians and clouds are refused with an error that names them
 /// (refuse_foreign_format). Points that are not finite, or 1e15 m and more from the origin, are left out with one

@@ -17,7 +17,7 @@ struct Layout {
   SequenceIndex (*index)(const std::string& path, const SequenceOptions& options);
 };
 
-/// In the order in which detection tries them.
+/// All layouts, in the order in which detection tries them.
 const std::vector<Layout>& layouts();
 
 bool is_tum(const std::string& path);

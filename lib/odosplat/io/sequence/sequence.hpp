@@ -34,11 +34,11 @@ namespace odosplat {
 ///                fx fy cx cy: 585 585 320 240; depth 1000 units per metre.
 ///   replica      results/frameN.jpg, results/depthN.png, traj.txt; cam_params.json there or one folder above.
 ///   colmap       a COLMAP model (cameras, images and points3D as .bin or .txt) in the folder, in sparse or in
-///   sparse/0;
-///                images in the folder images, in the folder itself, or in images one or two folders above. Frames are
-///                in the natural order of their names, frame k at k / fps. Camera models SIMPLE_PINHOLE, PINHOLE,
-///                SIMPLE_RADIAL, RADIAL, OPENCV. All images must have one camera (common_camera), unless a camera file
-///                is given. World frame and scale are the model's own: see sparse_points() and `odosplat align`.
+///                sparse/0; images in the folder images, in the folder itself, or in images one or two folders above.
+///                Frames in the natural order of their names, frame k at k / fps. Camera models SIMPLE_PINHOLE,
+///                PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV. All images must have one camera (common_camera), unless a
+///                camera file is given. World frame and scale are the model's own: see sparse_points() and `odosplat
+///                align`.
 ///   nerfstudio   transforms.json, or the path of a file of that format with another name: frames by `timestamp` [s] if
 ///                they have it, else in the natural order of their names, frame k at k / fps; one camera, given by the
 ///                file or by every frame (common_camera), OPENCV or simpler, unless a camera file is given; image names

@@ -51,7 +51,7 @@ void add_window(SceneBuilder& builder, float width, float height, float depth, i
 /// Curtain in folds, hanging from z = height to 0.05 at y = 0, `width` wide, centred.
 void add_curtain(SceneBuilder& builder, float width, float height, int folds, int cloth);
 
-/// Heating body below a window, `width` x 0.55 high, on the wall y = 0.
+/// Radiator below a window, `width` x 0.55 high, on the wall y = 0.
 void add_radiator(SceneBuilder& builder, float width, int metal);
 
 /// A few objects for a table top, around the origin at z = 0: a stack of books, a bowl and a mug.

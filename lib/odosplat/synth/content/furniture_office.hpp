@@ -10,7 +10,7 @@
 
 namespace odosplat {
 
-/// Things of an office, in their own frames as in furniture.hpp: z up, front towards -y, metres.
+/// Office furniture and equipment, in their own frames as in furniture.hpp: z up, front towards -y, metres.
 
 /// Desk of a size (width, depth, height): a top on a metal frame, a panel at its back, a box for cables.
 void add_desk(SceneBuilder& builder, const Eigen::Vector3f& size, int top, int frame);
@@ -27,7 +27,7 @@ void add_keyboard(SceneBuilder& builder, int keys, int plastic);
 /// Lamp with an arm of two thin parts, `height` to its elbow, with its light.
 void add_desk_lamp(SceneBuilder& builder, float height, int metal, int shade, const Eigen::Vector3f& radiance);
 
-/// Cabinet of a size with so many drawers with handles.
+/// Cabinet of a size with `drawers` drawers with handles.
 void add_drawers(SceneBuilder& builder, const Eigen::Vector3f& size, int drawers, int body, int front, int handle);
 
 /// Board with a frame and a tray for pens, on the plane y = 0, centre at the origin.

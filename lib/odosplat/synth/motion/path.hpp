@@ -22,7 +22,7 @@ struct PathOptions {
   double tremor_m = 0.004;    // [m] standard deviation of each coordinate of the eye's tremor, 0..0.05
   double tremor_rad = 0.006;  // [rad] the same for rotation, 0..0.1
   double max_speed = 1.5;     // [m/s] > 0
-  double max_turn = 1.57;     // [rad/s] > 0; 1.57 is 3 degrees a frame at 30 fps
+  double max_turn = 1.57;     // [rad/s] > 0; 1.57 is 3 degrees per frame at 30 fps
   std::uint64_t seed = 1;
 
   /// Throws InputError naming the field.

@@ -20,7 +20,7 @@ const Row& row_named(const std::vector<Row>& rows, const std::string& name) {
   throw InputError("scene", name + " is not known");
 }
 
-/// The indices of a material's variants.
+/// Adds all variants of a material; returns their indices.
 std::vector<int> add_variants(SceneBuilder& builder, const MaterialDescription& description, std::uint32_t seed) {
   const PatternRow& pattern = row_named(material_patterns(), description.pattern);
   const Parameters p(description.numbers);
