@@ -45,9 +45,10 @@ struct Run {
 };
 
 /// Plays a script to a new odometry. rgbd: the sensor that shows each frame's depth, null for other methods.
-/// label: for progress lines. told: the camera that the odometry is told of. Interrupted after Ctrl-C.
+/// label: for progress lines. told: the camera that the odometry is told of. edit: changes its options. Interrupted
+/// after Ctrl-C.
 Run play(const World& world, MapView& map, SensorView* sensor, const apps::TrackJob& job, const Script& script,
-         const SE3& T_world_camera_start, const std::string& label, const Camera& told);
+         const SE3& T_world_camera_start, const std::string& label, const Camera& told, const OptionEdit& edit = {});
 
 /// The same in the world's map, with the camera that the odometry is told of made from the world's.
 Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job, const Script& script,
@@ -55,6 +56,6 @@ Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job
 
 /// The same in the world's map, from the true pose of the first step.
 Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job, const Script& script,
-         const std::string& label);
+         const std::string& label, const OptionEdit& edit = {});
 
 }  // namespace odosplat::accuracy

@@ -2,10 +2,10 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/camera/camera.hpp"
 
-#include <cstdio>
 #include <string>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/number_text.hpp"
 
 namespace odosplat {
 namespace {
@@ -14,29 +14,23 @@ void require_size(const char* name, int size) {
   if (size < 1 || size > 32768) throw InputError(name, "must be in 1..32768, is " + std::to_string(size));
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", value);
-  return text;
-}
-
 // A focal length of a thousandth of the image size is a field of view of 179.9 degrees; with 1e6 px the largest
 // image (32768 px) has one of 2 degrees.
 constexpr double least_focal_share = 1e-3;
 constexpr double most_focal = 1e6;
 
 void require_focal(const char* name, double f, int size) {
-  if (!(f > 0.0)) throw InputError(name, "must be positive, is " + number(f));
+  if (!(f > 0.0)) throw InputError(name, "must be positive, is " + number_text(f));
   const double least = least_focal_share * size;
   if (f >= least && f <= most_focal) return;
-  throw InputError(name, "must be in " + number(least) + ".." + number(most_focal) + " for an image of " +
-                             std::to_string(size) + " px, is " + number(f));
+  throw InputError(name, "must be in " + number_text(least) + ".." + number_text(most_focal) + " for an image of " +
+                             std::to_string(size) + " px, is " + number_text(f));
 }
 
 // An image may be a crop of the largest allowed one (32768 px), so its principal point can lie that far outside.
 void require_center(const char* name, double c, int size) {
   if (c >= -32768.0 && c <= size + 32768.0) return;
-  throw InputError(name, "must be within 32768 px of the image, is " + number(c));
+  throw InputError(name, "must be within 32768 px of the image, is " + number_text(c));
 }
 
 }  // namespace

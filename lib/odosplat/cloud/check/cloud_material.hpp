@@ -25,8 +25,8 @@ class CloudMaterial {
   /// input must outlive this object. Throws InputError for a cloud of fewer than 4 finite points.
   CloudMaterial(const CloudCheckInput& input, const CloudCheckOptions& options);
 
-  /// Scales the whole cloud about the world's origin by `factor`, in addition to earlier calls.
-  void scale_cloud(double factor);
+  /// Sets the cloud to the given one, scaled about the world's origin by `factor`. Factors do not accumulate.
+  void set_cloud_scale(double factor);
 
   PatchWorld world(bool mirrored) const;
   /// The reduced grey image; throws InputError if the image is not of the camera's size.
@@ -43,6 +43,8 @@ class CloudMaterial {
   const CloudCheckInput& input_;
   Camera camera_;
   int halvings_ = 0;
+  PointCloud given_;
+  std::vector<float> given_spacings_;
   PointCloud cloud_;
   PointCloud mirrored_;
   std::vector<float> spacings_;
