@@ -19,7 +19,7 @@ constexpr double good_error = 0.35;  // below it, no smaller gap is tried
 constexpr double rows_share = 0.6;   // share of the work for progress; the fit takes the rest
 
 // The range of valid fits: patches are searched only a few pixels around their expected position, so larger corrections
-// cannot be found reliably. Fits with a cloud of another place end beyond these limits (at an offset of 0.33 of the
+// cannot be found reliably. Fits of a cloud with another shape end beyond these limits (at an offset of 0.33 of the
 // depth, rotations of 22 to 86 degrees, or 3.7 times the scale).
 constexpr double reach_offset = 0.25;  // of the median depth
 constexpr double reach_turn_deg = 15.0;
