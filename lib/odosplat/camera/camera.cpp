@@ -14,7 +14,8 @@ void require_size(const char* name, int size) {
   if (size < 1 || size > 32768) throw InputError(name, "must be in 1..32768, is " + std::to_string(size));
 }
 
-// A thousandth of the image: 179.9 degrees from border to border. 1e6 pixels: images of 32768 see 2 degrees.
+// A focal length of a thousandth of the image size is a field of view of 179.9 degrees; with 1e6 px the largest
+// image (32768 px) has one of 2 degrees.
 constexpr double least_focal_share = 1e-3;
 constexpr double most_focal = 1e6;
 
@@ -26,7 +27,7 @@ void require_focal(const char* name, double f, int size) {
                              std::to_string(size) + " px, is " + number_text(f));
 }
 
-// As far from the image as one that is cut out of the largest has its centre.
+// An image may be a crop of the largest allowed one (32768 px), so its principal point can lie that far outside.
 void require_center(const char* name, double c, int size) {
   if (c >= -32768.0 && c <= size + 32768.0) return;
   throw InputError(name, "must be within 32768 px of the image, is " + number_text(c));

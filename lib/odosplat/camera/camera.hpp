@@ -20,18 +20,18 @@ struct Camera {
   /// principal point within 32768 px of the image.
   void check() const;
 
-  /// p_camera [m] with z > 0 to pixel.
+  /// Projects p_camera [m], which must have z > 0, to a pixel.
   Eigen::Vector2d project(const Eigen::Vector3d& p_camera) const {
     return {fx * p_camera.x() / p_camera.z() + cx, fy * p_camera.y() / p_camera.z() + cy};
   }
-  /// Pixel to the point of its ray at depth z = 1.
+  /// The point at depth z = 1 on the ray of a pixel.
   Eigen::Vector3d ray(double u, double v) const { return {(u - cx) / fx, (v - cy) / fy, 1.0}; }
   Eigen::Matrix3d matrix() const;
 
   /// Camera of pyramid level l >= 0, each level half the size (odd last rows and columns are dropped):
   /// u -> (u + 0.5) / 2 - 0.5.
   Camera level(int l) const;
-  /// Camera of the same view at another size; both axes are scaled on their own.
+  /// Camera of the same view at another size; the two axes are scaled independently.
   Camera resized(int new_width, int new_height) const;
 
   bool operator==(const Camera&) const = default;

@@ -15,7 +15,7 @@ Undistorter::Undistorter(const Camera& camera, const std::vector<double>& distor
   p1_ = distortion[2];
   p2_ = distortion[3];
   k3_ = distortion.size() > 4 ? distortion[4] : 0.0;
-  // r (1 + k1 r^2 + ...) grows up to the first root of its derivative 1 + 3 k1 r^2 + 5 k2 r^4 + 7 k3 r^6.
+  // r (1 + k1 r^2 + ...) increases up to the first root of its derivative 1 + 3 k1 r^2 + 5 k2 r^4 + 7 k3 r^6.
   double turn = std::numeric_limits<double>::infinity();  // in r^2
   for (double r2 = 0.0; r2 < 10.0; r2 += 1e-3) {
     if (1.0 + r2 * (3.0 * k1_ + r2 * (5.0 * k2_ + r2 * 7.0 * k3_)) <= 0.0) {

@@ -10,12 +10,13 @@
 
 namespace odosplat {
 
-/// Removes radial and tangential lens distortion (Brown 1966, in OpenCV's form): a point at (x, y) = (X/Z, Y/Z) is seen
-/// at
+/// Removes radial and tangential lens distortion (Brown 1966, in OpenCV's form). The lens shows a point at
+/// (x, y) = (X/Z, Y/Z) at
 ///   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2)
 ///   y' = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y
-/// Images keep the camera's size, focal lengths and centre. Pixels whose ray the image does not show, or where the
-/// polynomial has turned back (a second image of the same ray), are 0. Const calls are thread safe.
+/// Images keep the camera's size, focal lengths and principal point. Pixels are 0 where the distorted image does not
+/// show their ray, or where the radial polynomial is no longer increasing (it would show the same ray twice). Const
+/// calls are thread safe.
 class Undistorter {
  public:
   Undistorter() = default;
@@ -27,7 +28,8 @@ class Undistorter {
   Eigen::Vector2d distort(double u, double v) const;
   /// Bilinear.
   ColorImage color(const ColorImage& distorted) const;
-  /// Nearest pixel, since between two depths there may be nothing. z does not change.
+  /// Nearest pixel: interpolating across a depth discontinuity would make depths where there is no surface. z is
+  /// unchanged.
   DepthImage depth(const DepthImage& distorted) const;
 
  private:
@@ -37,7 +39,7 @@ class Undistorter {
   double p1_ = 0.0;
   double p2_ = 0.0;
   double k3_ = 0.0;
-  cv::Mat2f source_;  // pixel of the distorted image, (-1, -1) = not seen
+  cv::Mat2f source_;  // pixel of the distorted image, (-1, -1) = not in the image
 };
 
 }  // namespace odosplat

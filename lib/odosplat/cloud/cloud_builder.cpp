@@ -17,8 +17,8 @@ namespace {
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
-// Slope of the inverse depth [1/m/px] along one axis from the two neighbours (0 = none): the gentler one, as the
-// steeper one may reach over an edge.
+// Slope of the inverse depth [1/m/px] along one axis from the two neighbours (0 = none): the smaller of the two slopes,
+// because the larger one may be across an edge.
 double inverse_depth_slope(double before, double here, double after) {
   const double a = before > 0.0 ? 1.0 / here - 1.0 / before : 0.0;
   const double b = after > 0.0 ? 1.0 / after - 1.0 / here : 0.0;
@@ -75,7 +75,8 @@ void CloudBuilder::add(const DepthImage& depth, const ColorImage& color, const C
       const double too_near = z * (1.0 - options_.max_depth_step);
       const auto hides = [&](double neighbor) { return neighbor > 0.0 && neighbor < too_near; };
       if (hides(left) || hides(right) || hides(up) || hides(down)) continue;
-      // A neighbour that is farther by as much is another surface and says nothing about the slope of this one.
+      // A neighbour that is farther by more than max_depth_step belongs to another surface and is not used for the
+      // slope.
       const auto same_surface = [&](double neighbor) {
         return z < neighbor * (1.0 - options_.max_depth_step) ? 0.0 : neighbor;
       };
@@ -103,7 +104,7 @@ PointCloud CloudBuilder::finish() const {
   std::vector<Eigen::Vector3f> rays;
   Random random(options_.seed);
   for (const VoxelGrid::Cell& cell : grid_.cells()) {
-    // Views from opposite sides can cancel; the point then stays where it is and its normal keeps its side.
+    // Rays from opposite sides can cancel; the point is then not moved and its normal not turned.
     const float length = cell.normal.norm();
     const Eigen::Vector3f ray = length > 1e-3F ? Eigen::Vector3f(cell.normal / length) : Eigen::Vector3f::Zero();
     const double shift = options_.noise > 0.0 ? options_.noise * random.normal() : 0.0;

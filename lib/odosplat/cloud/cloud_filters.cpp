@@ -31,7 +31,7 @@ PointCloud voxel_downsample(const PointCloud& cloud, double voxel_m) {
     thin.points.emplace_back((cell.point / cell.count).cast<float>());
     if (with_colors) thin.colors.emplace_back(cell.color / static_cast<float>(cell.count));
     if (with_normals) {
-      // Opposite normals cancel: the two sides of a sheet thinner than a voxel. Any direction is as good then.
+      // Opposite normals cancel if a voxel contains both sides of a thin sheet. Any direction may be used then.
       const float length = cell.normal.norm();
       thin.normals.emplace_back(length > 1e-6F ? Eigen::Vector3f(cell.normal / length) : Eigen::Vector3f::UnitZ());
     }
@@ -74,7 +74,7 @@ std::vector<float> mean_neighbor_distances(const PointCloud& cloud, int k) {
     for (int i = begin; i < end; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const int n = search.nearest(cloud.points[at], k + 1, indices.data(), squared_distances.data());
-      // The point itself is among them at distance 0, be it under the index of a copy: the first is left out.
+      // The first neighbour, at distance 0, is the point itself or a copy of it, and is left out.
       double sum = 0.0;
       for (int j = 1; j < n; ++j) sum += std::sqrt(static_cast<double>(squared_distances[static_cast<std::size_t>(j)]));
       if (n > 1) means[at] = static_cast<float>(sum / (n - 1));

@@ -39,7 +39,7 @@ PointCloud CloudThinner::finish(const std::string& name) const {
     cloud.points.push_back(round_point(name, cell.point / cell.count));
     if (colored) cloud.colors.emplace_back(cell.color / static_cast<float>(cell.count));
     if (oriented) {
-      // Opposite normals cancel: the two sides of a sheet thinner than a voxel. Any direction is as good then.
+      // Opposite normals cancel if a voxel contains both sides of a thin sheet. Any direction may be used then.
       const float length = cell.normal.norm();
       cloud.normals.emplace_back(length > 1e-6F ? Eigen::Vector3f(cell.normal / length) : Eigen::Vector3f::UnitZ());
     }

@@ -12,24 +12,26 @@
 
 namespace odosplat {
 
-/// Thins a cloud to one point a voxel while it is read, in memory that grows with the voxels, not with the points: each
-/// point kept is the mean of those in its voxel, its colour their mean colour, its normal their mean normal brought
-/// back to unit length. Order: that of each voxel's first point. Voxels are aligned to the origin.
-/// Deterministic: the same batches in the same order give the same bits, however they are cut. Not thread safe.
+/// Thins a cloud to one point per voxel while it is read, with memory proportional to the number of voxels, not of
+/// points. Each resulting point has the mean position and colour of the points in its voxel and their mean normal,
+/// scaled to unit length. Order: that of each voxel's first point. Voxels are aligned to the origin.
+/// Deterministic: the same points in the same order give the same bits, however they are divided into batches. Not
+/// thread safe.
 class CloudThinner {
  public:
-  /// voxel: edge [m], > 0, else InputError. origin [m] is taken off every point before anything else, in double
-  /// precision: the way to bring a cloud in survey coordinates near.
+  /// voxel: edge [m], > 0, else InputError. origin [m] is subtracted from every point first, in double precision, which
+  /// brings a cloud in survey coordinates near the origin.
   explicit CloudThinner(double voxel, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-  /// Points that are not finite are dropped. InputError for a voxel that is too small for a point (VoxelGrid::at).
+  /// Points that are not finite are dropped. Throws InputError for a voxel that is too small for a point
+  /// (VoxelGrid::at).
   void add(const CloudBatch& batch);
 
-  /// The cloud so far. Colours and normals are all or nothing: if some points came without, they are left out, with a
-  /// warning on the log. Throws InputError naming `name` as round_point says.
+  /// The cloud so far. If some points have no colours, or no normals, these are left out for the whole cloud, with a
+  /// warning in the log. Throws InputError naming `name` as round_point does.
   PointCloud finish(const std::string& name) const;
 
-  std::size_t points() const { return points_; }  // taken so far
+  std::size_t points() const { return points_; }  // number added so far
   std::size_t voxels() const { return grid_.cells().size(); }
 
  private:

@@ -7,7 +7,8 @@
 
 namespace odosplat {
 
-/// What is wrong where the coordinates of a cloud are `times` as large as those of the poses.
+/// A possible mix-up of units: the coordinates of a cloud are `times` as large as those of the poses because of
+/// `words`.
 struct CoordinateUnit {
   double times;
   const char* words;
@@ -15,7 +16,7 @@ struct CoordinateUnit {
 
 extern const std::array<CoordinateUnit, 7> length_units;
 
-/// "the cloud is in mm" for 1000; empty if no unit is within 2 % of it.
+/// "the cloud is in mm" for 1000; empty if the factor of no unit is within 2 % of `times`.
 std::string unit_words(double times);
 
 }  // namespace odosplat

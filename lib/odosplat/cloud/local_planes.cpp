@@ -16,7 +16,7 @@ namespace {
 LocalPlane fit(const PointCloud& cloud, const std::vector<int>& indices, int n) {
   LocalPlane plane;
   if (n < 3) return plane;
-  // Relative to the first point, which keeps the digits of clouds far from the origin.
+  // Relative to the first point, to keep precision for clouds far from the origin.
   const Eigen::Vector3d origin = cloud.points[static_cast<std::size_t>(indices[0])].cast<double>();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();

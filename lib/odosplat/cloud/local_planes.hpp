@@ -15,10 +15,10 @@ struct LocalPlane {
   float residual = 0.0F;                              // [m] rms distance of the neighbours from the plane
 };
 
-/// A plane a point through its k nearest neighbours and itself, by principal components: the normal is the direction of
-/// least spread. The residual is divided by the degrees of freedom left, k + 1 - 3, so that it estimates the points'
-/// noise. Fewer than 4 points in the cloud give residual 0, fewer than 3 the default normal. k >= 3, else InputError.
-/// Uses all threads; the same bits whatever their number.
+/// For every point the plane fitted to it and its k nearest neighbours by principal components: the normal is the
+/// direction of least spread. The sum of squares is divided by the remaining degrees of freedom, k + 1 - 3, so that the
+/// residual estimates the points' noise. Fewer than 4 points in the cloud give residual 0, fewer than 3 the default
+/// normal. k >= 3, else InputError. Uses all threads; bit-identical for any number of threads.
 std::vector<LocalPlane> fit_local_planes(const PointCloud& cloud, int k);
 
 }  // namespace odosplat

@@ -15,7 +15,7 @@ struct NeighborSearch::Tree {
 
   explicit Tree(const std::vector<Eigen::Vector3f>& p) : points(p) {}
 
-  // The interface that nanoflann asks of a data set.
+  // The interface of a data set that nanoflann requires.
   std::size_t kdtree_get_point_count() const { return points.size(); }
   float kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<Eigen::Index>(axis)]; }
   template <class Box>
@@ -29,8 +29,8 @@ struct NeighborSearch::Tree {
 
 namespace {
 
-/// The k nearest so far. Once all of them lie in the query itself, nothing comes nearer: without that, a search among
-/// points that coincide looks at every one of them, and a search for each of N takes N^2 steps.
+/// The k nearest points so far. Once all of them have distance 0 the search ends. Otherwise a search among coinciding
+/// points would visit every one of them, and searches for all N points would take N^2 steps.
 class NearestSet : public nanoflann::KNNResultSet<float, int> {
  public:
   using nanoflann::KNNResultSet<float, int>::KNNResultSet;

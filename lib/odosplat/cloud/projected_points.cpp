@@ -14,7 +14,7 @@ constexpr float min_cosine = 0.1F;
 constexpr int points_a_chunk = 4096;
 constexpr int rows_a_chunk = 32;
 
-// Radius [px] of a disc's bounding box; its near side is nearer than its centre.
+// Radius [px] of a disc's bounding box, at the depth of the disc's near side.
 float reach_px(const ProjectedPoint& p, const Camera& camera, float reach) {
   const float radius = reach * p.spacing;
   const float z = std::max(p.p_camera.z() - radius, 0.5F * p.p_camera.z());
@@ -90,7 +90,7 @@ cv::Mat1f splat_discs(const std::vector<ProjectedPoint>& points, const Camera& c
       const float radius = reach_px(p, camera, static_cast<float>(reach));
       const float u = p.u + margin;
       const float v = p.v + margin;
-      // Limits as floats first: discs right before the camera can be larger than an int.
+      // Clamped as floats before the conversion: discs very near to the camera can exceed the range of int.
       const int y0 = static_cast<int>(std::max(std::ceil(v - radius), static_cast<float>(row_begin)));
       const int y1 = static_cast<int>(std::min(std::floor(v + radius), static_cast<float>(row_end - 1)));
       const int x0 = static_cast<int>(std::max(std::ceil(u - radius), 0.0F));
@@ -124,7 +124,7 @@ cv::Mat1f splat_discs(const std::vector<ProjectedPoint>& points, const Camera& c
 PointGrid::PointGrid(const std::vector<ProjectedPoint>& points, const Camera& camera) : points_(points) {
   const int width = camera.width + 2 * projection_margin;
   const int height = camera.height + 2 * projection_margin;
-  // About two points a cell: fewer, and empty cells cost; more, and points that are too far cost.
+  // About two points per cell, a compromise between visiting empty cells and visiting points that are too far away.
   const float a_point = static_cast<float>(width) * static_cast<float>(height) /
                         static_cast<float>(std::max<std::size_t>(points.size(), 1));
   cell_ = std::clamp(std::sqrt(2.0F * a_point), 1.0F, 8.0F);

@@ -14,7 +14,7 @@
 
 namespace odosplat {
 
-/// A point of a cloud as one camera sees it, with the plane around it.
+/// A point of a cloud projected into a camera, with the plane around it.
 struct ProjectedPoint {
   float u, v;           // [px]
   float inverse_depth;  // [1/m]
@@ -22,29 +22,31 @@ struct ProjectedPoint {
   float slope_v;
   float spacing;             // [m]
   Eigen::Vector3f p_camera;  // [m]
-  Eigen::Vector3f n_camera;  // unit normal, turned to the camera
-  float cosine;              // of the angle between normal and ray, 0.1 at least
+  Eigen::Vector3f n_camera;  // unit normal, facing the camera
+  float cosine;              // of the angle between normal and ray, at least 0.1
   int index;                 // in the cloud
 
   /// Inverse depth [1/m] of the plane at a pixel.
   float inverse_depth_at(float x, float y) const { return inverse_depth + slope_u * (x - u) + slope_v * (y - v); }
 };
 
-/// Pixels around the image for which points are kept as well, so that the image's border has neighbours on both sides.
+/// Width [px] of the margin around the image in which points are kept too, so that pixels at the image's border have
+/// neighbours on both sides.
 inline constexpr int projection_margin = 8;
 
 /// The points of a cloud (with normals) whose depth is min_depth or more and whose disc of radius reach * spacing
-/// touches the image and its margin, in the cloud's order. Normals that would be seen under less than 6 degrees are
-/// tilted to that: a plane seen edge-on has no depth.
+/// touches the image or its margin, in the cloud's order. Normals of planes seen at less than 6 degrees are tilted to
+/// that angle, because a plane seen edge-on has no defined depth.
 std::vector<ProjectedPoint> project_points(const PointCloud& cloud, const std::vector<float>& spacings,
                                            const Camera& camera, const SE3& T_world_camera, double min_depth,
                                            double reach);
 
-/// The nearest depth [m] at each pixel of the image and its margin (pixel (x, y) is at column x + projection_margin)
-/// among the points' discs, radius reach * spacing; infinite where there is none. A disc covers at least its centre.
+/// The nearest depth [m] among the points' discs at each pixel of the image and its margin (pixel (x, y) is at column
+/// x + projection_margin); infinite where there is no disc. Discs have the radius reach * spacing and cover at least
+/// the pixel of their centre.
 cv::Mat1f splat_discs(const std::vector<ProjectedPoint>& points, const Camera& camera, double reach);
 
-/// Points in square cells of an image and its margin, for looking up the nearest ones to a pixel.
+/// Points sorted into square cells of an image and its margin, to find those nearest to a pixel.
 class PointGrid {
  public:
   static constexpr int max_found = 6;
@@ -57,8 +59,8 @@ class PointGrid {
   /// points must outlive the grid and lie within the image and its margin.
   PointGrid(const std::vector<ProjectedPoint>& points, const Camera& camera);
 
-  /// The up to max_found points nearest to the pixel, no farther than radius [px], that accept(point, squared distance)
-  /// takes. Equal distances: the lower number first.
+  /// The up to max_found points nearest to the pixel, within radius [px], for which accept(point, squared distance) is
+  /// true. At equal distances the point with the lower index comes first.
   template <typename Accept>
   Found nearest(float x, float y, float radius, const Accept& accept) const;
 
@@ -70,7 +72,7 @@ class PointGrid {
   float cell_ = 1.0F;  // [px]
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<int> begins_;  // of each cell in order_
+  std::vector<int> begins_;  // start of each cell in order_
   std::vector<int> order_;
 };
 

@@ -20,14 +20,14 @@ namespace {
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
 
-constexpr double shrink = 0.9;        // of the radius, a step
-constexpr double open_below = 0.004;  // see `weakest`
+constexpr double shrink = 0.9;        // factor on the radius per step
+constexpr double open_below = 0.004;  // limit for `weakest`
 constexpr double sigma_of_mad = 1.4826;
 constexpr std::size_t fewest_points = 20;
 constexpr std::size_t fewest_cloud_points = 100;
 constexpr int chunk = 512;
 
-// A point where it is now, and the plane it is held against.
+// A point at its current position, and its nearest neighbour's plane.
 struct Match {
   bool found = false;
   Eigen::Vector3d p = Eigen::Vector3d::Zero();  // [m] in the cloud's frame
@@ -35,7 +35,7 @@ struct Match {
   double distance = 0.0;  // [m] from the plane, signed
 };
 
-// Evenly from the whole list.
+// At most `most` points, picked evenly from the whole list.
 std::vector<Eigen::Vector3d> picked(const std::vector<Eigen::Vector3f>& points, int most) {
   const std::size_t n = std::min(points.size(), static_cast<std::size_t>(most));
   std::vector<Eigen::Vector3d> chosen(n);
@@ -56,7 +56,7 @@ double spacing_of(const PointCloud& cloud, const NeighborSearch& search) {
   return upper_median(std::move(distances));
 }
 
-// Sums of J J^T and J r over matches, the parameters about `centre` with lengths in units of `extent`.
+// Sums of J J^T and J r over matches, for parameters about `centre` with lengths in units of `extent`.
 struct System {
   Matrix7d H = Matrix7d::Zero();
   Vector7d b = Vector7d::Zero();
@@ -169,7 +169,7 @@ class Aligner {
     return total;
   }
 
-  // Returns how far a point at the rms distance was moved [m]; infinity if there was nothing to hold on to.
+  // Returns the distance [m] by which a point at the rms distance was moved; infinity if there are too few matches.
   double step(double radius, Similarity& S) {
     match(S, radius);
     if (!frame_matches()) return INFINITY;
@@ -181,11 +181,11 @@ class Aligner {
     const double width = std::max(std::min(3.0 * sigma, radius), 0.5 * options_.inlier);
     System system = sum_up([width](const Match& m) { return tukey(m.distance, width); });
     if (!(system.weight > 0.0)) return INFINITY;
-    // Open directions stay where they are.
+    // Regularisation: undetermined directions do not move.
     system.H.diagonal().array() += 1e-6 * system.weight;
     Vector7d x = -system.H.ldlt().solve(system.b);
     if (!x.allFinite()) return INFINITY;
-    // A long step has left what it was computed from.
+    // Limited, because the linearisation is not valid for long steps.
     const double most = 0.2;
     if (const double length = x.norm(); length > most) x *= most / length;
     const double scale = std::exp(x[6]);

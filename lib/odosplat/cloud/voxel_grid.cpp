@@ -16,8 +16,8 @@ VoxelGrid::VoxelGrid(double voxel) : voxel_(voxel) {
 }
 
 std::size_t VoxelGrid::Hash::operator()(const Key& k) const {
-  // Odd multipliers spread neighbours over the whole word; the shifts bring the upper bits down, those of the keys
-  // first, whose lower ones are zero.
+  // Odd multipliers spread neighbouring cells over the whole word; the shifts move upper bits down, first those of the
+  // keys, whose lower bits are zero.
   const auto bits = [](double value) {
     const auto word = std::bit_cast<std::uint64_t>(value);
     return word ^ (word >> 32);
@@ -37,7 +37,7 @@ VoxelGrid::Cell* VoxelGrid::at(const Eigen::Vector3d& point) {
                   point.y(), point.z());
     throw InputError("voxel", fault);
   }
-  // Of the two zeros, which are equal but differ in bits, adding makes one.
+  // Adding 0.0 turns -0.0 into +0.0: the two are equal but have different bits, and so different hashes.
   const Key key{std::floor(p.x()) + 0.0, std::floor(p.y()) + 0.0, std::floor(p.z()) + 0.0};
   const auto [it, is_new] = index_.try_emplace(key, static_cast<std::uint32_t>(cells_.size()));
   if (is_new) {

@@ -33,7 +33,7 @@ BuildWatch::~BuildWatch() {
 void BuildWatch::wait() {
   const std::chrono::duration<double> rest(std::max(0.0, context_.build_notice_after_s - context_.build_s));
   std::unique_lock lock(mutex_);
-  // A build may have ended before this thread began.
+  // The build may have ended before this thread started waiting, so the elapsed time decides.
   if (ended_.wait_for(lock, rest, [this] { return done_; }) && seconds() < rest.count()) return;
   given_ = true;
   context_.build_notice();

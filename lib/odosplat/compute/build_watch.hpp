@@ -11,8 +11,8 @@
 
 namespace odosplat::compute {
 
-/// Lives while a program is built: counts the time, and gives the context's build notice when it is due. Private to
-/// this folder.
+/// Exists while a program is built: adds the time to the context's total and calls its build notice when it is due.
+/// Private to this folder.
 class BuildWatch {
  public:
   explicit BuildWatch(ContextImpl& context);

@@ -126,11 +126,12 @@ void Context::reset_kernel_times() {
 Memory::Memory(const Context& context, std::size_t bytes)
     : context_(std::shared_ptr<ContextImpl>(context.shared_impl())) {
   cl_int status = CL_SUCCESS;
-  // On a CPU the memory is taken at once: PoCL else takes it at the first use, and aborts where there is none.
+  // On a CPU the memory is allocated at once, so that a failure is reported here: otherwise PoCL allocates it at the
+  // first use and aborts the process if that fails.
   const cl_mem_flags flags = CL_MEM_READ_WRITE | (context.is_cpu() ? CL_MEM_ALLOC_HOST_PTR : 0);
   cl_mem memory = clCreateBuffer(context_->context, flags, bytes, nullptr, &status);
   check(status, "clCreateBuffer of " + std::to_string(bytes) + " bytes", context_->info.name);
-  // The deleter holds the context, so that the memory goes first. A failing release has nobody to tell.
+  // The deleter holds the context, so that the memory is released before it. A failing release cannot be reported.
   handle_ = std::shared_ptr<_cl_mem>(memory, [keep = context_](cl_mem m) { clReleaseMemObject(m); });
 }
 

@@ -11,13 +11,13 @@
 
 #include "odosplat/compute/device.hpp"
 
-// OpenCL's own names, declared here so that its headers stay out of ours.
+// OpenCL types, declared here so that this header needs no OpenCL header.
 struct _cl_mem;     // NOLINT(bugprone-reserved-identifier)
 struct _cl_kernel;  // NOLINT(bugprone-reserved-identifier)
 
 namespace odosplat::compute {
 
-/// An OpenCL call failed: the message holds the call, the error's name, the device and, for builds, options and log.
+/// An OpenCL call failed: the message has the call, the error's name, the device and, for builds, options and log.
 class DeviceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -25,7 +25,7 @@ class DeviceError : public std::runtime_error {
 
 struct ContextImpl;
 
-/// Time of one kernel, summed over its launches. Kernels of one stage do one step of the work together.
+/// Time of one kernel, summed over its launches. A stage is one step of the work, made up of one or more kernels.
 struct KernelTime {
   std::string stage;
   std::string name;
@@ -40,23 +40,25 @@ struct StageTime {
   std::vector<KernelTime> kernels;
 };
 
-/// One device with one in-order queue: commands run in the order given, so a caller never waits but to read.
+/// One device with one in-order queue: commands run in the order given, so a caller has to wait only to read results.
 /// Copies share the same device and queue. Not thread safe: one thread at a time.
 class Context {
  public:
-  /// selector as in choose_device. NoSuchDevice also where PoCL would run kernels from a cache that is not this user's.
+  /// selector as in choose_device. Throws NoSuchDevice also if PoCL would run kernels from a cache folder that other
+  /// users can write to (pocl_cache_fault).
   static Context open(const std::string& selector = "");
 
   const DeviceInfo& device() const;
   bool is_cpu() const { return device().type == DeviceType::cpu; }
-  /// Waits for everything that was given to the queue.
+  /// Waits until all queued commands have finished.
   void finish() const;
 
-  /// With profiling on, every launch is timed (it costs a wait each); times in order of first launch.
+  /// With profiling on, every launch is timed, which waits for each to finish. kernel_times() are in order of first
+  /// launch.
   void set_profiling(bool on);
   bool profiling() const;
   std::vector<KernelTime> kernel_times() const;
-  /// The same summed by stage, stages in order of first launch.
+  /// The same times summed by stage, stages in order of first launch.
   std::vector<StageTime> stage_times() const;
   void reset_kernel_times();
 
@@ -96,8 +98,8 @@ class Buffer {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  /// Makes size() == size. Keeps the memory, and with it the contents, while it is large enough; else allocates anew
-  /// with room to spare and the contents are lost.
+  /// Makes size() == size. Keeps the memory and its contents if it is large enough; otherwise allocates new memory with
+  /// some room to grow, and the contents are lost.
   void resize(const Context& context, std::size_t size) {
     if (memory_.handle() == nullptr || size > capacity_) {
       capacity_ = size + size / 4 + 1;
@@ -118,11 +120,11 @@ class Buffer {
   void download(T* data, std::size_t count, std::size_t offset = 0) const {
     if (count > 0) memory_.download(data, count * sizeof(T), offset * sizeof(T));
   }
-  /// Queued: zero bytes in all elements.
+  /// Queued, not waited for: sets all bytes of all elements to zero.
   void fill_zero() {
     if (size_ > 0) memory_.fill_zero(size_ * sizeof(T), 0);
   }
-  /// Queued: the first source.size() elements become those of source; resizes to fit.
+  /// Queued, not waited for: resizes to source.size() and copies all elements of source.
   void copy_from(const Context& context, const Buffer& source) {
     resize(context, source.size());
     if (size_ > 0) memory_.copy_from(source.memory_, size_ * sizeof(T));

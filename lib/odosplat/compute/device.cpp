@@ -94,7 +94,7 @@ const DeviceInfo* first_usable(const std::vector<DeviceInfo>& devices, DeviceTyp
 void set_cpu_threads(int n) { setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(n).c_str(), 1); }
 
 std::vector<FoundDevice> find_devices() {
-  // PoCL aborts where the variable is there and empty.
+  // PoCL aborts if the variable is set but empty.
   if (const char* folder = std::getenv("POCL_CACHE_DIR"); folder != nullptr && *folder == '\0')
     unsetenv("POCL_CACHE_DIR");
   cl_uint platform_count = 0;

@@ -10,7 +10,7 @@ namespace odosplat::compute {
 
 enum class DeviceType { cpu, gpu, other };
 
-/// The user asked for a device that is not there or is refused. One line; programs exit with 2.
+/// The user asked for a device that does not exist or is refused. The message is one line; programs exit with 2.
 class NoSuchDevice : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -31,11 +31,11 @@ struct DeviceInfo {
   std::string refusal;  // why it is not used; empty: usable
 };
 
-/// Threads that PoCL's CPU device runs on. Works before the first look at any device only, since PoCL starts its
-/// threads then; other runtimes ignore it.
+/// Number of threads of PoCL's CPU device. Has an effect only before devices are listed or opened for the first time,
+/// because PoCL starts its threads then. Other runtimes ignore it.
 void set_cpu_threads(int n);
 
-/// All devices of all platforms; empty where there is no OpenCL at all.
+/// All devices of all platforms; empty if no OpenCL is installed.
 std::vector<DeviceInfo> list_devices();
 
 /// Picks from `devices`: selector is an index, a part of a name (device or platform, case ignored), or empty, which

@@ -19,7 +19,7 @@ const char* variable(const char* name) {
   return value != nullptr && *value != '\0' ? value : nullptr;
 }
 
-/// Where PoCL keeps its kernels; it shows no device where it cannot.
+/// The folder of PoCL's kernel cache; PoCL reports no device if it cannot write there.
 std::filesystem::path pocl_cache_folder() {
   if (const char* folder = variable("POCL_CACHE_DIR")) return folder;
   if (const char* folder = variable("XDG_CACHE_HOME")) return std::filesystem::path(folder) / "pocl/kcache";
@@ -27,7 +27,7 @@ std::filesystem::path pocl_cache_folder() {
   return "/tmp/pocl/kcache";
 }
 
-/// errno of writing into a folder, or of making it; 0: it can be written.
+/// The errno with which writing into a folder, or creating it, would fail; 0 if it can be written.
 int write_error(std::filesystem::path folder) {
   std::error_code error;
   while (!std::filesystem::exists(folder, error) && folder.has_relative_path()) {

@@ -6,8 +6,8 @@
 
 namespace odosplat::compute {
 
-/// Why there is no OpenCL device, as far as can be told, in words for one line: PoCL has a cache folder that it cannot
-/// write, memory is limited, or no runtime is installed.
+/// The probable reason why there is no OpenCL device, as part of a one-line message: PoCL cannot write its cache
+/// folder, memory is limited (ulimit -v), or no runtime is installed.
 std::string no_device_reason();
 
 }  // namespace odosplat::compute

@@ -2,7 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-// The one place that includes OpenCL. Private to this folder: no other header of the project may include this one.
+// The only file that includes OpenCL. Private to this folder: no other header of the project may include this one.
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 
@@ -27,9 +27,9 @@ struct ContextImpl {
   cl_command_queue queue = nullptr;
   std::size_t max_work_group = 1;
   bool profile = false;
-  std::function<void()> build_notice;  // empty: none, or it was given
+  std::function<void()> build_notice;  // empty: none was set, or it has been called
   double build_notice_after_s = 1.0;
-  double build_s = 0.0;  // that builds have taken so far
+  double build_s = 0.0;  // total time of all builds so far
   std::vector<KernelTime> times;
   std::unordered_map<std::string, std::size_t> time_index;
 

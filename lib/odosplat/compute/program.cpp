@@ -12,8 +12,9 @@
 namespace odosplat::compute {
 namespace {
 
-// Denormals and signed zeros never matter to us; mad-enable lets a*b+c become one fused instruction. Not
-// -cl-fast-relaxed-math: it cancels the magic constant of the exponential (alpha wrong by 40 %, silently).
+// No kernel depends on denormals or signed zeros; mad-enable lets a*b+c become one fused instruction. Not
+// -cl-fast-relaxed-math: it optimises away the constant that exp2 adds and subtracts to round, which makes alpha wrong
+// by up to 40 % without any error.
 constexpr const char* common_options = "-cl-mad-enable -cl-denorms-are-zero -cl-no-signed-zeros";
 
 std::string joined_text(const std::vector<std::string>& files) {
@@ -43,7 +44,7 @@ std::shared_ptr<void> owned(cl_program program, std::shared_ptr<ContextImpl> kee
   return {program, [keep = std::move(keep)](void* p) { clReleaseProgram(static_cast<cl_program>(p)); }};
 }
 
-// Null when the binary is not accepted: the caller builds from source.
+// Null if the driver does not accept the binary: the caller then builds from source.
 std::shared_ptr<void> from_binary(const std::shared_ptr<ContextImpl>& c, const std::vector<unsigned char>& binary,
                                   const std::string& options) {
   if (binary.empty()) return nullptr;

@@ -14,8 +14,8 @@
 
 namespace odosplat::compute {
 
-/// Work-items of a launch in one or two dimensions. `global` is rounded up to a multiple of `local`, so kernels test
-/// their index against the size they are given.
+/// Work-items of a launch in one or two dimensions. `global` is rounded up to a multiple of `local`, so kernels have to
+/// compare their index with the actual size, which is passed as an argument.
 struct Range {
   std::array<std::size_t, 2> global{1, 1};
   std::array<std::size_t, 2> local{1, 1};
@@ -28,7 +28,7 @@ struct Range {
 
 /// A kernel with a typed call: kernel(range, buffer, buffer, std::int32_t, float, ...). Arguments are buffers or plain
 /// scalars of exactly the kernel's types (32-bit integers, float, or arrays of 2, 4, 8, 16 of them for vector types);
-/// bool and double do not compile. The launch is queued, not waited for. A launch of no items does nothing.
+/// bool and double do not compile. The launch is queued, not waited for. A launch of zero items does nothing.
 class Kernel {
  public:
   template <typename... Args>
@@ -70,19 +70,20 @@ class Kernel {
 };
 
 /// Kernels built from files of the folder kernels/ for the context's device. `files` are joined in the order given
-/// (constants.h always goes first). Options: -D NAME=VALUE and the like; "-cl-mad-enable -cl-denorms-are-zero
+/// (constants.h always comes first). Options: -D NAME=VALUE and the like; "-cl-mad-enable -cl-denorms-are-zero
 /// -cl-no-signed-zeros" are always set (and never -cl-fast-relaxed-math: it breaks the magic-number rounding of exp2).
 /// Binaries are kept in a cache on disk (the folder kernels of ODOSPLAT_CACHE_DIR, else of $XDG_CACHE_HOME/odosplat,
 /// else of ~/.cache/odosplat; the word "off" disables it), keyed by source, options, device and driver version; a
-/// broken or foreign entry is rebuilt, and a folder that others may write to is not used (program_cache_fault()).
+/// damaged entry or one that other users can write to is rebuilt, and a folder that other users can write to is not
+/// used (program_cache_fault()).
 /// Throws DeviceError with the build log.
 class Program {
  public:
   Program(const Context& context, const std::vector<std::string>& files, const std::string& options = "");
-  /// Builds text that is not in the folder (tests).
+  /// Builds source text that is not in the folder kernels/ (for tests).
   static Program from_text(const Context& context, const std::string& text, const std::string& options = "");
 
-  /// stage: the step of the work that this kernel's time counts for (KernelTime); empty: one of its own.
+  /// stage: the stage to which this kernel's time is added (KernelTime); empty: a stage of its own.
   Kernel kernel(const std::string& name, const std::string& stage = "") const;
 
  private:
@@ -92,7 +93,7 @@ class Program {
   std::shared_ptr<void> program_;
 };
 
-/// Why the cache on disk is not used although there is one, in a line that says what to do; empty: it is used.
+/// Why the cache folder on disk exists but is not used, in one line that says what to do; empty otherwise.
 std::string program_cache_fault();
 
 }  // namespace odosplat::compute

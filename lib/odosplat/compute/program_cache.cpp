@@ -23,7 +23,7 @@ namespace {
 constexpr char magic[8] = {'o', 's', 'p', 'l', 'a', 't', '0', '1'};
 constexpr std::string_view part_mark = ".bin.part-";
 
-// FNV-1a, 64 bits, as core/checksum.hpp has it, which this library does not use.
+// 64-bit FNV-1a as in core/checksum.hpp, repeated here because this library does not depend on core.
 std::uint64_t hash(const void* data, std::size_t size) {
   const auto* bytes = static_cast<const unsigned char*>(data);
   std::uint64_t h = 0xcbf29ce484222325ULL;
@@ -46,7 +46,7 @@ struct Header {
   std::uint64_t binary_hash;
 };
 
-/// A file descriptor that is closed at the end.
+/// A file descriptor that is closed by the destructor.
 class Descriptor {
  public:
   explicit Descriptor(int value) : value_(value) {}
@@ -64,7 +64,7 @@ class Descriptor {
 
 int open_folder(const std::string& folder) { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }
 
-/// Why nothing of it may be run; empty: it is this user's alone.
+/// Why binaries from this file or folder must not be run; empty if it belongs to this user and only they can write it.
 std::string mistrust(const struct stat& status) {
   if (status.st_uid != geteuid()) return "belongs to another user";
   if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0) return "can be written by other users";
@@ -76,7 +76,7 @@ bool is_trusted(const Descriptor& file) {
   return file.is_open() && ::fstat(file.get(), &status) == 0 && mistrust(status).empty();
 }
 
-/// Every folder that is missing is made for this user alone.
+/// Creates all missing folders of the path, accessible to this user only.
 void make_folders(const std::string& folder) {
   for (std::size_t at = folder.find('/', 1);; at = folder.find('/', at + 1)) {
     ::mkdir(folder.substr(0, at).c_str(), 0700);
@@ -107,7 +107,8 @@ bool write_all(int file, std::string_view bytes) {
   return true;
 }
 
-/// Writing an entry takes milliseconds: what is an hour old was left by a process that was killed.
+/// Removes temporary files of processes that were killed while writing: writing takes milliseconds, so any temporary
+/// file older than an hour is one.
 void remove_leftovers(int folder) {
   constexpr std::time_t old = 3600;
   DIR* entries = fdopendir(::fcntl(folder, F_DUPFD_CLOEXEC, 0));
@@ -153,7 +154,7 @@ std::string pocl_cache_fault() {
     return value == nullptr ? "" : value;
   };
   std::string folder = set("POCL_CACHE_DIR");
-  std::string above;  // which PoCL makes, too
+  std::string above;  // the parent folder, which PoCL creates too
   if (folder.empty()) {
     const std::string xdg = set("XDG_CACHE_HOME");
     const std::string home = set("HOME");
@@ -176,12 +177,12 @@ std::vector<unsigned char> ProgramCache::load(const std::string& key) const {
   if (folder_.empty()) return {};
   const Descriptor folder(open_folder(folder_));
   if (!is_trusted(folder)) return {};
-  // Without O_NONBLOCK a pipe would be waited for.
+  // O_NONBLOCK, because opening a named pipe would otherwise wait for its writer.
   const Descriptor file(
       ::openat(folder.get(), entry_name(key).c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
   if (!is_trusted(file) || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
-  constexpr std::size_t most_bytes = 1U << 28U;  // of what a driver makes of our kernels
+  constexpr std::size_t most_bytes = 1U << 28U;  // upper bound for the size of a compiled program
   const auto size = static_cast<std::size_t>(status.st_size);
   Header header{};
   if (size < sizeof(header) + key.size() || size > most_bytes) return {};

@@ -7,12 +7,13 @@
 
 namespace odosplat::compute {
 
-/// Program binaries on disk, one file a key. Private to this folder.
-/// Binaries are run as they are found, so the folder and its files count only if they belong to this user and nobody
-/// else may write to them; files must be regular ones, not links. A file holds the whole key, which is compared (its
-/// name is only a short hash of it), and the binary's length and checksum, which tell damage and not forgery.
-/// Reading never throws: whatever is wrong with an entry means "not there". Writing failures are ignored: a cache that
-/// cannot be written costs time, nothing else. Several processes may use one folder (write beside, then rename).
+/// Program binaries on disk, one file per key. Private to this folder.
+/// Binaries are executed without further checks, so the folder and its files are used only if they belong to this user
+/// and nobody else may write to them; files must be regular files, not links. A file contains the whole key, which is
+/// compared because the file name is only a short hash of it, and the binary's length and checksum, which detect damage
+/// but not forgery. Reading never throws: any fault of an entry counts as "not there". Write errors are ignored:
+/// without the cache programs only take longer to start. Several processes may use one folder: a file is written under
+/// a temporary name and then renamed.
 class ProgramCache {
  public:
   /// folder "" disables the cache.
@@ -22,18 +23,19 @@ class ProgramCache {
   static ProgramCache from_environment();
 
   std::vector<unsigned char> load(const std::string& key) const;
-  /// Makes the folder if need be, for this user alone.
+  /// Creates the folder if it is missing, accessible to this user only.
   void store(const std::string& key, const std::vector<unsigned char>& binary) const;
-  /// Why the folder is not used, in a line; empty: it is, or is not there yet, or is disabled.
+  /// Why the folder is not used, in one line; empty if it is used, does not exist yet, or the cache is disabled.
   std::string fault() const;
 
  private:
   std::string folder_;
 };
 
-/// The same of the cache that PoCL keeps by itself (POCL_CACHE_DIR, else $XDG_CACHE_HOME/pocl/kcache, else
-/// $HOME/.cache/pocl/kcache, else /tmp/pocl/kcache), and runs kernels from without asking whose they are: why it must
-/// not be used, in a line; empty: it may. Its group may write to it: PoCL makes it as the umask has it.
+/// The same check for PoCL's own cache folder (POCL_CACHE_DIR, else $XDG_CACHE_HOME/pocl/kcache, else
+/// $HOME/.cache/pocl/kcache, else /tmp/pocl/kcache), from which PoCL runs kernels without checking their owner: why it
+/// must not be used, in one line; empty if it may be. Write permission for the group is accepted, because PoCL creates
+/// the folder with the permissions that the umask leaves.
 std::string pocl_cache_fault();
 
 }  // namespace odosplat::compute

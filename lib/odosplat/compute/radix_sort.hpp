@@ -12,13 +12,14 @@
 namespace odosplat::compute {
 
 /// Stable least-significant-digit radix sort of 32-bit keys: passes of 11 bits over chunks, of 4 bits over groups.
-/// Positive floats sort as their bits, so depths can be handed over with as_uint.
+/// Positive floats have the same order as their bits, so depths can be passed as keys with as_uint.
 class RadixSort {
  public:
   explicit RadixSort(const Context& context, Layout layout = Layout::automatic);
 
-  /// order[r] = index of the key that has rank r; equal keys keep their order. `keys` (n of them, each below 2^bits,
-  /// bits 1..32) is left alone; `order` is resized to n. The result does not depend on device or threads. Queued.
+  /// order[r] = index of the key with rank r; equal keys keep their order. `keys` (n keys, each below 2^bits, bits
+  /// 1..32) is not changed; `order` is resized to n. The result does not depend on device or threads. Queued, not
+  /// waited for.
   void sort(const Buffer<std::uint32_t>& keys, std::size_t n, Buffer<std::uint32_t>& order, int bits = 32);
 
  private:

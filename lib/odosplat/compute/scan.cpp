@@ -7,7 +7,7 @@
 namespace odosplat::compute {
 namespace {
 
-// Keeps two CPU cores busy from 8192 elements on.
+// Two chunks, enough to occupy two CPU cores, from 8192 elements on.
 constexpr std::uint32_t chunk_size = 4096;
 
 }  // namespace

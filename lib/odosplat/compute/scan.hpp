@@ -12,11 +12,11 @@ namespace odosplat::compute {
 /// How Scan and RadixSort lay out their work; results are equal on every device.
 enum class Layout {
   automatic,  // chunks on CPUs, groups elsewhere
-  chunks,     // few long runs, a work-item each
+  chunks,     // few long chunks, one work-item per chunk
   groups      // many work-groups of SCAN_GROUP items with local memory
 };
 
-/// Never automatic.
+/// The layout to use: `wanted`, with `automatic` resolved for the context's device.
 Layout chosen_layout(Layout wanted, const Context& context);
 
 /// Exclusive prefix sum of 32-bit counts. Integer sums: the same result on every device.
@@ -25,7 +25,7 @@ class Scan {
   explicit Scan(const Context& context, Layout layout = Layout::automatic);
 
   /// out[i] = counts[0] + ... + counts[i-1] for i in 0..n (n + 1 values, the last is the total); out is resized.
-  /// `counts` has at least n elements. Sums beyond 2^32 - 1 wrap. Queued.
+  /// `counts` has at least n elements. Sums beyond 2^32 - 1 wrap around. Queued, not waited for.
   void exclusive(const Buffer<std::uint32_t>& counts, std::size_t n, Buffer<std::uint32_t>& out);
 
  private:

@@ -10,7 +10,8 @@
 
 namespace odosplat {
 
-/// 64-bit FNV-1a (Fowler, Noll, Vo) over all that was added: to tell data apart, not to guard against forgery.
+/// 64-bit FNV-1a hash (Fowler, Noll, Vo) of all bytes added. It detects different or damaged data; it gives no
+/// protection against deliberate forgery.
 class Checksum {
  public:
   void add(std::string_view bytes) {

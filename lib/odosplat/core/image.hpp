@@ -17,14 +17,14 @@ using DepthImage = cv::Mat1f;
 /// ITU-R 601 luma: 0.299 R + 0.587 G + 0.114 B.
 GrayImage to_gray(const ColorImage& color);
 
-/// Half the size by 2x2 means; an odd last row or column is dropped (Camera::level agrees).
+/// Half the size by 2x2 means; an odd last row or column is dropped, as Camera::level does.
 GrayImage halve(const GrayImage& image);
 ColorImage halve(const ColorImage& image);
 
-/// Levels 0 (the image itself, shared) .. levels - 1. Stops early rather than make a level of zero size.
+/// Levels 0 (the image itself, shared) .. levels - 1; fewer if the next level would have zero size.
 std::vector<GrayImage> build_pyramid(const GrayImage& image, int levels);
 
-/// Bilinear value at (u, v); the caller makes sure that 0 <= u <= cols - 1 and 0 <= v <= rows - 1.
+/// Bilinear value at (u, v). Precondition, not checked: 0 <= u <= cols - 1 and 0 <= v <= rows - 1.
 inline float bilinear(const GrayImage& image, float u, float v) {
   int x = static_cast<int>(u);
   int y = static_cast<int>(v);

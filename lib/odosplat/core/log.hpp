@@ -6,12 +6,12 @@
 
 namespace odosplat {
 
-/// Lines for the person who runs a program, on standard error; results go to standard output. A message may hold text
-/// of files: it is shown as one line without control characters (terminal_text.hpp). Thread safe.
+/// Messages for the person who runs a program, on standard error; results go to standard output. A message may contain
+/// text from files: it is shown as one line without control characters (terminal_text.hpp). Thread safe.
 void log_debug(const std::string& message);
 void log_info(const std::string& message);
 void log_warning(const std::string& message);
-/// Whether log_info shows anything at the level that is set; progress is shown where it does.
+/// Whether log_info shows anything at the current level. Progress (progress.hpp) is shown under the same condition.
 bool logs_info();
 /// debug | info | warning | off; throws InputError for another word. Default: info.
 void set_log_level(const std::string& level);

@@ -20,7 +20,7 @@ double at_share(std::vector<double>& values, double share) {
   return values[static_cast<std::size_t>(place)];
 }
 
-// Distance between a number and the next in single precision.
+// Distance from |value| to the next larger number in single precision.
 double float_step(double value) {
   const auto size = static_cast<float>(std::abs(value));
   return static_cast<double>(std::nextafter(size, INFINITY)) - static_cast<double>(size);
@@ -44,7 +44,7 @@ void require_near_origin(const std::string& name, const std::vector<Eigen::Vecto
     step = std::max(step, float_step(median[axis]));
   }
   if (0.5 * step <= harmful_m || 0.5 * step <= harmful_share * spread) return;
-  // A number that is short to write and leaves less than 1 km.
+  // Rounded to whole kilometres: short to type, and the remaining median coordinates are below 1 km.
   const Eigen::Vector3d origin = (median / 1000.0).array().round() * 1000.0;
   char fault[320];
   std::snprintf(fault, sizeof(fault),

@@ -7,7 +7,7 @@
 
 namespace odosplat {
 
-/// A number as messages show it: six digits at most, no zeros behind the last one ("0.5", "1e+06").
+/// A number for messages: at most six significant digits, no trailing zeros ("0.5", "1e+06").
 inline std::string number_text(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.6g", value);

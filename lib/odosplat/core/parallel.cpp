@@ -58,7 +58,7 @@ void parallel_for(int n, int chunk, const std::function<void(int, int)>& body) {
           work();
         });
       } catch (const std::system_error&) {
-        break;  // the machine gives no more threads: those there are do the work
+        break;  // the system gives no more threads: the existing ones do the work
       }
     }
     inside_parallel_for = true;

@@ -65,7 +65,7 @@ void Progress::update(long done, const std::string& detail) {
 void Progress::print(long done, const std::string& left, const std::string& detail) {
   const std::string numbers = std::to_string(done) + "/" + std::to_string(total_) + "  left " + left;
   if (terminal_) {
-    // The last column stays free: a terminal goes to the next line when it is filled.
+    // The last column stays free: filling it would make the terminal move to the next line.
     const int columns = terminal_columns(STDERR_FILENO) - 1;
     const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 1.0;
     const int room = columns - text_columns(what_ + " [] " + numbers + "  " + detail);

@@ -8,13 +8,13 @@
 
 namespace odosplat {
 
-/// Time left of a job from the speed of its own steps. The first report starts the clock: what comes before it
-/// (building kernels, reading) would make the first answers much too long.
+/// Time left of a job, estimated from the speed of its own steps. The clock starts at the first report: the time before
+/// it (building kernels, reading) would make the first estimates much too long.
 class TimeLeft {
  public:
   explicit TimeLeft(long total) : total_(total) {}
-  /// `done` steps at `now` [s, any start]. [s] that the rest takes; none until 3 s have been measured, and then until
-  /// 1 % of the steps or 20 s have been. 0 when all are done.
+  /// `done` steps have been done at time `now` [s, any start]. Returns the remaining time [s]; 0 when all steps are
+  /// done; nullopt until at least 3 s, and either 1 % of the steps or 20 s, have been measured.
   std::optional<double> update(long done, double now);
 
  private:
@@ -24,9 +24,9 @@ class TimeLeft {
 };
 
 /// Progress of a long job on standard error: a line that is redrawn on a terminal (at most 10 times a second, cut to
-/// the terminal's width), a plain line every 10 % or 30 s elsewhere. Shows done/total, time left ("-:--" until it means
-/// something) and a text of the caller's. Nothing at all where the log shows no information (set_log_level). Not thread
-/// safe.
+/// the terminal's width), a plain line every 10 % or 30 s elsewhere. Shows done/total, the time left ("-:--" until
+/// TimeLeft gives one) and a text of the caller's. Shows nothing if the log level hides log_info (set_log_level). Not
+/// thread safe.
 class Progress {
  public:
   /// what: a word or two ("train"). total >= 0 steps; the time left follows from the steps after the first update.

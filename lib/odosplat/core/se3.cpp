@@ -29,7 +29,7 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
 }
 
 Eigen::Quaterniond rotation_from_text(const Eigen::Quaterniond& q) {
-  // Eigen's norm squares: values beyond 1e150 would overflow it.
+  // Not Eigen's norm(), which squares the values and would overflow for those beyond 1e150.
   const double length = q.coeffs().stableNorm();
   if (!(length >= 0.5 && length <= 2.0)) {
     char fault[80];

@@ -17,9 +17,10 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v);
 Eigen::Quaterniond so3_exp(const Eigen::Vector3d& omega);
 Eigen::Vector3d so3_log(const Eigen::Quaterniond& q);
 
-/// The rotation that a file or a person writes as four numbers: q at unit length. The one rule for all of them: the
-/// length must be in 0.5..2, since rounding does not take it farther from 1, and other numbers in the quaternion's
-/// columns do. InputError("the quaternion has length 3, must be near 1 (0.5..2)") otherwise, and if it is not finite.
+/// The rotation of a quaternion from a file or a command line: q scaled to unit length. All readers use this one rule:
+/// the length must be in 0.5..2. Rounded numbers stay within that, while other data in the quaternion's columns usually
+/// does not. Throws InputError("the quaternion has length 3, must be near 1 (0.5..2)") otherwise, also for a length
+/// that is not finite.
 Eigen::Quaterniond rotation_from_text(const Eigen::Quaterniond& q);
 
 /// A rigid motion. Names carry both frames: p_world = T_world_camera * p_camera; T_a_c = T_a_b * T_b_c.
@@ -30,7 +31,7 @@ class SE3 {
   SE3() : q_(Eigen::Quaterniond::Identity()), t_(Eigen::Vector3d::Zero()) {}
   SE3(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation)
       : q_(rotation.normalized()), t_(translation) {}
-  /// R must be a rotation; its nearest quaternion is taken.
+  /// R must be a rotation matrix; it is converted to a unit quaternion.
   SE3(const Eigen::Matrix3d& R, const Eigen::Vector3d& translation)
       : q_(Eigen::Quaterniond(R).normalized()), t_(translation) {}
   static SE3 from_matrix(const Eigen::Matrix4d& M) {

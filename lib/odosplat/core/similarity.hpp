@@ -9,7 +9,7 @@
 
 namespace odosplat {
 
-/// A motion with a scale, from one world into another: p_target = scale * (R * p_source) + t.
+/// A similarity transform from one world frame into another: p_target = scale * (R * p_source) + t.
 struct Similarity {
   double scale = 1.0;
   SE3 T_target_source;
@@ -17,7 +17,8 @@ struct Similarity {
   Eigen::Vector3d operator*(const Eigen::Vector3d& p) const {
     return scale * (T_target_source.rotation() * p) + T_target_source.translation();
   }
-  /// The pose of a camera of the source world in the target world. Distances grow by scale, the camera turns.
+  /// The pose in the target world of a camera given in the source world: its position is scaled, rotated and shifted,
+  /// its orientation rotated.
   SE3 operator*(const SE3& T_source_camera) const {
     return {T_target_source.rotation() * T_source_camera.rotation(), *this * T_source_camera.translation()};
   }
@@ -25,8 +26,8 @@ struct Similarity {
 
 /// The similarity (with_scale) or rigid motion that brings source to target with the least sum of squared distances.
 /// Source: Umeyama 1991, "Least-squares estimation of transformation parameters between two point patterns", equations
-/// 34 to 43; reflections are excluded. Both lists of the same length, any unit. Throws InputError for fewer than three
-/// points or points on a line (within about 1e-5 of their extent): the rotation is not determined then.
+/// 34 to 43; reflections are excluded. Both lists have the same length, any unit. Throws InputError for fewer than
+/// three points or points on a line (within about 1e-5 of their extent), which do not determine the rotation.
 Similarity align_points(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& target,
                         bool with_scale);
 

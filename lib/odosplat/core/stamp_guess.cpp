@@ -20,12 +20,12 @@ struct Unit {
 };
 constexpr std::array<Unit, 4> units{{{"seconds", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
 
-// Between two images or poses, in seconds: what no camera and no tracker exceeds.
+// Limits for the time between two images or poses [s], wider than those of any camera or tracker.
 constexpr double least_step = 1e-4;
 constexpr double largest_step = 60.0;
 constexpr double usual_step = 1.0 / 30.0;
 constexpr double largest_image_step = 10.0;
-// Stamps that are nearer than this are no ms, us or ns: 1 kHz.
+// Stamps with a smaller step are not in ms, us or ns: in ms, 1 is a rate of 1 kHz.
 constexpr double least_raw_step = 0.9;
 
 double median_step(const std::vector<double>& times) {
@@ -44,7 +44,7 @@ std::size_t nearest(const std::vector<double>& times, double t) {
   return static_cast<std::size_t>(after - times.begin());
 }
 
-// Stamps of the shorter list that have one of the longer list for themselves.
+// Number of stamps of the shorter list that match a stamp of the longer list, each of which is used at most once.
 std::size_t matched(std::vector<double> a, std::vector<double> b, double tolerance) {
   if (a.size() > b.size()) std::swap(a, b);
   std::size_t count = 0;
@@ -63,7 +63,7 @@ std::vector<double> scaled(std::vector<double> times, double factor, double offs
   return times;
 }
 
-// True if stamps that are `step` apart (median) can be of that unit.
+// Whether stamps with the median step `step` can be in that unit.
 bool can_be(const Unit& unit, double step) {
   const double seconds = unit.seconds * step;
   return seconds >= least_step && seconds <= largest_step && (unit.seconds == 1.0 || step >= least_raw_step);
@@ -96,7 +96,8 @@ std::string units_by_matching(const NamedStamps& a, const NamedStamps& b, double
       if (unit_a.seconds == 1.0 && unit_b.seconds == 1.0) continue;
       if (!can_be(unit_a, step_a) || !can_be(unit_b, step_b)) continue;
       const std::size_t count = matched(scaled(a.times, unit_a.seconds), scaled(b.times, unit_b.seconds), tolerance);
-      // ms against us match as us against ns do: what is more like a camera's rate counts.
+      // Pairs of units with the same ratio match equally well (ms with us, us with ns): of these, the pair whose rate
+      // is closest to a usual camera's (30 Hz) is taken.
       const double oddity = std::abs(std::log(unit_a.seconds * step_a / usual_step));
       if (count < best || (count == best && oddity >= best_oddity)) continue;
       best = count;

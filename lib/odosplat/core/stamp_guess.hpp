@@ -7,21 +7,21 @@
 
 namespace odosplat {
 
-/// Stamps of one list of poses or images, ascending, and what it is called in a sentence ("the estimate").
+/// Time stamps of one list of poses or images, ascending, and how messages name the list ("the estimate").
 struct NamedStamps {
   std::string name;
   std::vector<double> times;  // meant to be [s]
 };
 
-/// Why two lists that should be of the same time do not match within `tolerance` [s], as a clause for the user:
-/// a list in ms, us or ns, a list of frame numbers, or a constant offset. A unit counts if half of the shorter list
-/// matches with it, or if the two last for times that differ by its factor. The words say "look like" or "about": it is
-/// a guess. Two lists that overlap and have no such fault: how far the nearest stamps are apart (median). Empty if one
-/// of them is.
+/// A guess, as a clause for a message, why two lists that should cover the same time do not match within `tolerance`
+/// [s]: one list is in ms, us or ns, or holds frame numbers, or there is a constant offset. A unit is named if half of
+/// the shorter list matches once it is applied, or if the durations of the lists differ by its factor. The clause says
+/// "look like" or "about" because it is a guess. For lists that overlap and show none of these faults, it gives the
+/// median distance of the nearest stamps. Empty if one of the lists is empty.
 std::string guess_stamp_fault(const NamedStamps& a, const NamedStamps& b, double tolerance);
 
-/// Unit (ms, us, ns) that times look like which are `step` apart (median) where seconds were meant; empty for steps of
-/// less than 10 s.
+/// The unit (ms, us, ns) that time stamps meant to be in seconds probably have if their median step is `step`; empty
+/// for steps of less than 10 s, which are plausible as seconds.
 std::string unit_of_step(double step);
 
 }  // namespace odosplat

@@ -10,7 +10,7 @@
 namespace odosplat {
 namespace {
 
-/// One character of UTF-8 at the start of a text; size 0: the first byte starts none.
+/// The UTF-8 character at the start of a text; size 0: the text does not start with a valid one.
 struct Character {
   std::size_t size = 0;
   std::uint32_t code = 0;
@@ -68,18 +68,18 @@ std::string printable(std::string_view text, bool keep_lines) {
 
 constexpr std::string_view left_out = "...";
 constexpr std::size_t longest_quote = 100;  // [bytes]
-// Two paths of the longest kind (4096) do not fit, and one does.
+// [bytes] Long enough for a path of the maximum length (4096), not for two.
 constexpr std::size_t line_start = 6000;
 constexpr std::size_t line_end = 2000;
 
-/// The start of a text, of at most so many bytes, that does not end within a character.
+/// The start of a text, at most so many bytes, cut at a character boundary.
 std::string_view cut_to_bytes(std::string_view text, std::size_t bytes) {
   if (text.size() <= bytes) return text;
   while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) --bytes;
   return text.substr(0, bytes);
 }
 
-/// What files say is quoted, and may be as long as they are.
+/// Shortens quoted parts: messages quote text from files, which can be arbitrarily long.
 std::string with_short_quotes(std::string_view text) {
   std::string out;
   while (!text.empty()) {
@@ -119,7 +119,7 @@ int columns_of(std::uint32_t code) {
   return wide ? 2 : 1;
 }
 
-/// Bytes of the start that takes at most so many columns.
+/// Number of bytes of the longest start of the text that takes at most so many columns.
 std::size_t bytes_within(std::string_view text, int columns) {
   std::size_t bytes = 0;
   while (bytes < text.size()) {

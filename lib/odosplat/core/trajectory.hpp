@@ -10,8 +10,8 @@
 
 namespace odosplat {
 
-/// A camera pose with its time. time_text is the time as the input wrote it (kept, so that outputs name the same
-/// stamp); empty means: print `time` with 6 decimals.
+/// A camera pose with its time. time_text is the time as written in the input, kept so that outputs print the same
+/// stamp; if it is empty, `time` is printed with 6 decimals.
 struct StampedPose {
   double time = 0.0;  // [s]
   SE3 T_world_camera;

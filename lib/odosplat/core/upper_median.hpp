@@ -8,8 +8,7 @@
 
 namespace odosplat {
 
-/// The value in the middle of the values in order; of an even number of values the upper one of the two. `if_none`
-/// where there are no values.
+/// The median; for an even number of values the larger of the two middle values. `if_none` if there are no values.
 template <typename T>
 T upper_median(std::vector<T> values, T if_none = T()) {
   if (values.empty()) return if_none;

@@ -6,7 +6,8 @@
 
 namespace odosplat {
 
-/// How an estimate is laid over the truth before it is judged: as it is, by a rigid motion, or with a scale as well.
+/// How an estimate is aligned with the truth before its errors are computed: not at all, by a rigid motion, or by a
+/// similarity.
 enum class TrajectoryAlignment { none, se3, sim3 };
 
 /// "none", "se3", "sim3"; throws InputError for another word.

@@ -14,7 +14,7 @@ namespace odosplat {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double enough_overlap = 0.5;  // of a pair's pixels, for a misfit to mean something
+constexpr double enough_overlap = 0.5;  // share of a pair's pixels from which a misfit is significant
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 struct Pair {
@@ -74,7 +74,7 @@ Gaps first_gaps(int images, int gap) {
   return {std::max(1, images / 3), std::max(1, images - 1)};
 }
 
-// Pairs of images that have poses: under every shift of the ids, or as they are numbered at least.
+// Pairs of images that have poses: under every shift of the ids, or only without a shift.
 std::vector<Pair> choose_pairs(const ConventionInput& input, const Gaps& gaps, int wanted, bool under_every_shift) {
   std::vector<Pair> possible;
   for (int gap = gaps.min; gap <= gaps.max; ++gap) {
@@ -141,7 +141,7 @@ PairError reproject(const ConventionInput& input, const Pair& pair, const std::v
   return error;
 }
 
-// Of the rows that have enough of it to be measured; 0: none has.
+// The largest overlap of the rows that could be measured; 0 if there are none.
 double most_overlap(const std::vector<ConventionRow>& rows) {
   double most = 0.0;
   for (const ConventionRow& row : rows) {
@@ -158,7 +158,7 @@ DepthImage load(const ConventionInput& input, std::size_t image) {
   return depth;
 }
 
-// One row a convention, not yet sorted.
+// One row per convention, not sorted.
 std::vector<ConventionRow> measure(const ConventionInput& input, const std::vector<Convention>& conventions,
                                    const std::vector<Pair>& pairs, const ConventionOptions& options) {
   std::vector<std::vector<PairError>> errors(conventions.size(), std::vector<PairError>(pairs.size()));
@@ -222,8 +222,9 @@ ConventionReport check_conventions(const ConventionInput& input, const Conventio
   report.declared = {input.fy_sign, false, 0, input.depth_scale};
   const std::vector<Convention> conventions = all_conventions(report.declared, options);
   const int images = static_cast<int>(input.T_world_camera.size());
-  // Ends at the first gap that says something: a row can be believed, or images overlap and yet no row fits. At less
-  // motion much fits that is wrong. Of the others the one with most overlap is kept.
+  // Stops at the first, that is the largest, gap with a result: a row is believable, or the images overlap enough but
+  // no row fits. Smaller gaps are avoided because with little motion wrong rows fit too. Without a result the gap with
+  // the largest overlap is kept.
   const auto try_gaps = [&](bool under_every_shift) {
     const Gaps first = first_gaps(images, options.gap);
     for (Gaps gaps = first; gaps.min >= 1; gaps = {gaps.min / 2, gaps.max / 2}) {

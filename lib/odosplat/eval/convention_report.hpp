@@ -9,7 +9,7 @@
 
 namespace odosplat {
 
-/// One way to read the data.
+/// One interpretation of the data.
 struct Convention {
   int fy_sign = 1;
   bool inverted = false;  // the stored poses are T_camera_world
@@ -22,15 +22,15 @@ struct Convention {
 /// Its relative errors are medians of |difference| / depth.
 struct ConventionRow : PairScores {
   Convention convention;
-  double error_m = 0.0;  // [m] median over pairs of the pair's median |difference|, in the row's own metres
-  double overlap = 0.0;  // mean share of pixels that land on depth
+  double error_m = 0.0;  // [m] median over pairs of the pair's median |difference|, in metres by the row's depth scale
+  double overlap = 0.0;  // mean share of pixels that are projected onto a pixel with depth
 };
 
-/// What is said of one part of the convention.
+/// The result for one part of the convention.
 struct ConventionFinding {
   std::string part;         // "fy", "poses", "id shift", "depth scale"
-  bool decided = false;     // the data tell this from every other value
-  bool as_declared = true;  // the value of the best row that cannot be told from the very best
+  bool decided = false;     // the data rule out every other value
+  bool as_declared = true;  // the winner has the declared value
   std::string text;         // one sentence, empty if decided and as declared
 };
 
@@ -39,14 +39,14 @@ struct ConventionReport {
   Convention declared;
   Convention winner;
   double winner_error_m = 0.0;
-  int gap = 0;                              // [frames] that was used: the smallest ...
-  int max_gap = 0;                          // ... and the largest
-  int pairs = 0;                            // that were used
-  bool gap_reduced = false;                 // at the gap that was asked for nothing fitted
-  bool believable = false;                  // the best error is below max_error
-  bool as_declared = false;                 // believable, and no part is found to differ
-  std::vector<ConventionFinding> findings;  // one a part
-  std::string verdict;                      // one line: whether the declared convention holds, and what does if not
+  int gap = 0;                              // [frames] smallest gap that was used
+  int max_gap = 0;                          // [frames] largest gap that was used
+  int pairs = 0;                            // number that was used
+  bool gap_reduced = false;                 // a smaller gap than the requested one was used
+  bool believable = false;                  // the winner's relative error is at most max_error
+  bool as_declared = false;                 // believable, and the winner is the declared convention
+  std::vector<ConventionFinding> findings;  // one per part
+  std::string verdict;                      // one line: whether the declared convention holds, and if not, which one
 };
 
 }  // namespace odosplat

@@ -44,7 +44,8 @@ int agreement(const Convention& a, const Convention& b) {
       std::count_if(std::begin(parts), std::end(parts), [&](const Part& p) { return p.same(a, b); }));
 }
 
-// A part's value, and what else of the row is not as declared: only together do they explain the images.
+// The value of a part, with the other parts of the row that are not as declared: the row explains the images only with
+// all of these values together.
 std::string row_text(const Part& part, const ConventionRow& row, const Convention& declared, const Camera& camera) {
   std::string text = part.text(row.convention, camera);
   for (const Part& other : parts) {
@@ -55,7 +56,7 @@ std::string row_text(const Part& part, const ConventionRow& row, const Conventio
                            : std::string(" cannot be tried without more poses"));
 }
 
-// denied: no row that fits has the declared value.
+// denied: no row that fits has the declared value, so the declared value is wrong although the right one is unknown.
 std::string undecided_text(const Part& part, const ConventionRow& winner, const ConventionRow& other, bool denied,
                            const Convention& declared, const Camera& camera) {
   const std::string denial =
@@ -106,7 +107,7 @@ void judge_conventions(ConventionReport& report, const Camera& camera, double ma
              agreement(row.convention, report.winner) >= static_cast<int>(std::size(parts)) - 2 && !beats(*winner, row);
     };
     auto other = std::find_if(report.rows.begin(), report.rows.end(), fits_otherwise);
-    // With another value of another part the declared one may fit as well as the winner.
+    // A row with the declared value of this part, and another value of one other part, may fit as well as the winner.
     const auto declared = std::find_if(report.rows.begin(), report.rows.end(), [&](const ConventionRow& row) {
       return fits_otherwise(row) && part.same(row.convention, report.declared);
     });
@@ -131,7 +132,7 @@ void judge_conventions(ConventionReport& report, const Camera& camera, double ma
   } else if (report.as_declared) {
     report.verdict = "the data agree with what is declared, to " + millimetres(winner->error_m) + open;
   } else {
-    // Several parts that explain it only one with another: none is named, but it is not as declared.
+    // Several parts can explain the difference, so none is decided, but the declared convention does not hold.
     report.verdict =
         differences.empty() ? "the data do not agree with what is declared; " + open.substr(2) : differences + open;
   }

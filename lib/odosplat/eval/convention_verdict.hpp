@@ -7,8 +7,8 @@
 
 namespace odosplat {
 
-/// Fills winner, findings and verdict of a report whose rows are measured and sorted and whose declared convention is
-/// among them.
+/// Sets winner, findings and verdict of a report. Its rows must have been measured and sorted, and the declared
+/// convention must be among them.
 void judge_conventions(ConventionReport& report, const Camera& camera, double max_error);
 
 }  // namespace odosplat

@@ -96,7 +96,7 @@ cv::Mat1b depth_edge_mask(const DepthImage& depth, int radius, double min_step) 
     }
   }
   if (radius == 0 || edges.empty()) return edges;
-  // The pixels on both sides of an edge are marked already: they are at distance 1 of it.
+  // The pixels on both sides of an edge, which have distance 1, are already marked.
   cv::Mat1b wide;
   const int reach = radius - 1;
   cv::dilate(edges, wide, cv::getStructuringElement(cv::MORPH_RECT, {2 * reach + 1, 2 * reach + 1}));

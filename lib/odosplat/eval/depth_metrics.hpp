@@ -14,18 +14,18 @@ struct DepthErrors {
   double p90_m = 0.0;         // 90 % of the errors are no larger
   double rmse_m = 0.0;        // [m]
   double mean_m = 0.0;        // [m] of estimate - truth: positive = too far
-  double valid_share = 0.0;   // pixels with an estimate among those with truth
-  std::uint64_t pixels = 0;   // with truth
-  // Share of the estimates with a sigma whose error is within 1, 2 and 3 of it (of a normal distribution 0.683, 0.954,
-  // 0.997); 0 without sigmas.
+  double valid_share = 0.0;   // share of the pixels with truth that have an estimate
+  std::uint64_t pixels = 0;   // number with truth
+  // Share of the estimates with a sigma whose error is within 1, 2 and 3 sigma (0.683, 0.954, 0.997 for a normal
+  // distribution); 0 without sigmas.
   double within_sigmas[3] = {0.0, 0.0, 0.0};
-  std::uint64_t with_sigma = 0;  // estimates with a sigma
+  std::uint64_t with_sigma = 0;  // number of estimates with a sigma
 };
 
-/// Errors of depth images over many frames, in memory that does not grow: sums, and a histogram of the absolute error
-/// with 2000 bins a decade from 1 um to 100 m (errors beyond count as the ends), so that median and p90 are exact to
-/// 0.06 %. One object a region (all pixels, the selected ones, those near edges). Not thread safe; the result depends
-/// on the order of frames only by the rounding of sums.
+/// Errors of depth images over many frames, with constant memory: sums, and a histogram of the absolute error with 2000
+/// bins per decade from 1 um to 100 m (errors beyond count in the first or last bin), so that median and p90 are exact
+/// to 0.06 %. Use one object per region (all pixels, selected ones, those near edges). Not thread safe; the order of
+/// frames affects the result only through the rounding of sums.
 class DepthMetrics {
  public:
   DepthMetrics();
@@ -50,8 +50,8 @@ class DepthMetrics {
   std::uint64_t within_[3] = {0, 0, 0};
 };
 
-/// 255 within radius [px] (along rows and columns) of an edge in depth, else 0. An edge lies between two neighbouring
-/// pixels with depth that differ by more than min_step of the nearer one; a pixel without depth makes none.
+/// 255 within radius [px] (along rows and columns) of a depth edge, else 0. An edge lies between two neighbouring
+/// pixels whose depths differ by more than min_step times the smaller one; pixels without depth make no edge.
 cv::Mat1b depth_edge_mask(const DepthImage& depth, int radius = 3, double min_step = 0.05);
 
 }  // namespace odosplat

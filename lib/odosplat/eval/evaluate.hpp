@@ -18,9 +18,9 @@ namespace odosplat {
 struct EvalOptions {
   TrajectoryAlignment alignment = TrajectoryAlignment::none;
   int delta = 1;                      // [frames] distance of the two poses of a relative error, in matched poses
-  bool all_pairs = false;             // relative errors from every pose, not only from 0, delta, 2 delta, ...
+  bool all_pairs = false;             // relative errors start at every pose, not only at 0, delta, 2 delta, ...
   double max_time_difference = 0.01;  // [s] between matched poses
-  std::size_t frames = 0;             // frames there were to estimate; 0: see expected_frames()
+  std::size_t frames = 0;             // number of frames that should have been estimated; 0: expected_frames()
 
   void check() const;
 };
@@ -34,28 +34,28 @@ struct EvalResult {
   double coverage = 0.0;           // the smaller of the next two
   double coverage_estimate = 0.0;  // pairs / poses of the estimate
   double coverage_truth = 0.0;     // pairs / frames, 1 at most
-  std::string doubt;               // one line that says why if under half of the estimate is matched, else empty
+  std::string doubt;               // one line with the cause if less than half of the estimate is matched, else empty
   TrajectoryAlignment alignment = TrajectoryAlignment::none;
   Similarity truth_from_estimate;  // the alignment that was applied; its scale is 1 unless sim3
   std::vector<Match> matches;
-  std::vector<double> position_errors_m;  // of each match
+  std::vector<double> position_errors_m;  // one per match
 };
 
-/// No pose of the estimate is of the time of one of the truth, or too few of many for the alignment; the message says
-/// the likely cause.
+/// No pose of the estimate matches a pose of the truth in time, or less than half of the estimate matches and too few
+/// poses for the alignment. The message gives the likely cause.
 class NothingMatched : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// Judges an estimated trajectory by the true one. Both give T_world_camera [m]; only matched poses count.
+/// Errors of an estimated trajectory against the true one. Both give T_world_camera [m]; only matched poses count.
 /// Source: Sturm et al. 2012, "A benchmark for the evaluation of RGB-D SLAM systems", section V, with the conventions
-/// of the public tool evo, whose figures these are: ATE is the error of the position (its `trans_part`), the relative
-/// error of poses i and j is (Q_i^-1 Q_j)^-1 (P_i^-1 P_j) with truth Q and estimate P, consecutive pairs do not overlap
-/// unless all_pairs. Differs: association is one to one; coverage says what share of estimate and truth was judged. If
-/// under half of the estimate is matched, its rate tells nothing of the frames: every true pose counts as one. Throws
-/// NothingMatched if no poses match (or under half, and too few to align), InputError if the alignment asked for is not
-/// determined.
+/// of the public tool evo, which gives the same figures: ATE is the error of the position (its `trans_part`); the
+/// relative error of poses i and j is (Q_i^-1 Q_j)^-1 (P_i^-1 P_j) with truth Q and estimate P; consecutive pairs do
+/// not overlap unless all_pairs. Differences: association is one to one, and coverage gives the share of estimate and
+/// truth that was compared. If less than half of the estimate is matched, the number of frames cannot be derived from
+/// its rate, and every true pose counts as a frame. Throws NothingMatched if no poses match (or less than half, and too
+/// few to align), InputError if the requested alignment is not determined.
 EvalResult evaluate(const Trajectory& estimate, const Trajectory& truth, const EvalOptions& options);
 
 }  // namespace odosplat

@@ -22,15 +22,15 @@ constexpr float least_jump = 0.05F;        // of the nearer depth
 constexpr std::size_t least_edges = 2000;  // of all images
 constexpr std::size_t most_edges = 4000;   // of an image
 constexpr double least_contrast = 1.15;
-constexpr float noise = 2.0F / 255.0F;  // [1/px] of the grey image: gradients that mean nothing
+constexpr float noise = 2.0F / 255.0F;  // [1/px] gradient of the grey image that may be due to noise
 
-// Between two pixels, one of which may be half a pixel farther.
+// A depth edge, half a pixel beyond the last pixel of the nearer surface.
 struct Edge {
   float u, v;       // [px] from the principal point
-  bool horizontal;  // found along a row: colour's change along the row counts
+  bool horizontal;  // found along a row, so that the colour gradient along the row is used
 };
 
-// Of one image: strength of the gradient along rows and columns, over its mean around.
+// Strength of an image's gradient along rows and columns, divided by its local mean.
 struct Strength {
   cv::Mat1f along_rows;
   cv::Mat1f along_columns;
@@ -58,13 +58,13 @@ Strength strength_of(const GrayImage& gray, double blur) {
   cv::divide(gx, mean + noise, strength.along_rows);
   cv::blur(gy, mean, around);
   cv::divide(gy, mean + noise, strength.along_columns);
-  // A single strong edge must not outweigh all others.
+  // Limited, so that a single strong edge does not outweigh all others.
   strength.along_rows = cv::min(strength.along_rows, 4.0);
   strength.along_columns = cv::min(strength.along_columns, 4.0);
   return strength;
 }
 
-// Of a row (or a column: stride in pixels), in the order of its pixels.
+// Finds the edges of a row or column, in the order of its pixels.
 template <typename At, typename Found>
 void scan_line(int length, const At& at, const Found& found) {
   int last = -1;
@@ -106,7 +106,7 @@ std::vector<Edge> edges_of(const DepthImage& depth, const Camera& camera) {
 }
 
 DepthImage halve_depth(const DepthImage& depth) {
-  // The nearest of four, so that edges stay where the nearer surface ends.
+  // The nearest of four depths, so that edges stay at the border of the nearer surface.
   DepthImage half(depth.rows / 2, depth.cols / 2, 0.0F);
   for (int y = 0; y < half.rows; ++y) {
     for (int x = 0; x < half.cols; ++x) {
@@ -125,13 +125,13 @@ struct Placement {
   double dy = 0.0;
 };
 
-// A score a group of images and placement.
+// One score per group of images and placement.
 struct Scores {
   std::vector<Placement> placements;
   std::array<std::vector<double>, groups> sums;
   std::array<double, groups> counts{};
 
-  // Over all groups but one (none: -1).
+  // The mean score over all groups except `without` (-1: over all groups).
   double mean(std::size_t placement, int without) const {
     double sum = 0.0;
     double count = 0.0;
@@ -167,7 +167,7 @@ double sum_of(const Picture& picture, const Strength& strength, const Camera& ca
   for (const Edge& edge : picture.edges) {
     const float u = ox + s * edge.u;
     const float v = oy + s * edge.v;
-    // Outside: as much as anywhere, so that no placement gains by moving edges out.
+    // An edge outside the image counts with the average strength, so that moving edges out gives no advantage.
     if (!(u >= 0.0F && v >= 0.0F && u <= right && v <= bottom)) {
       sum += 1.0;
       continue;
@@ -209,7 +209,7 @@ std::vector<Placement> grid(const Placement& middle, double scale_range, double 
   return placements;
 }
 
-// [px] by which the farthest corner moves at most.
+// Largest displacement [px] of an image corner.
 double corner_misfit(const Placement& p, const Camera& camera) {
   double most = 0.0;
   for (const double u : {-0.5, camera.width - 0.5}) {
@@ -292,7 +292,7 @@ RegistrationReport check_registration(const RegistrationInput& input, const Regi
     shifts_y.push_back(p.dy);
     misfits.push_back(corner_misfit(p, camera));
   }
-  // The grid's own steps are no better known than their width.
+  // The sigmas are at least as large as the resolution of the search grid allows.
   report.scale = found.scale;
   report.scale_sigma = std::max(0.0025, jackknife(scales));
   report.shift_px = pixels_before * Eigen::Vector2d(found.dx, found.dy);

@@ -7,12 +7,12 @@
 
 namespace odosplat {
 
-/// What is said of a list of errors, in the errors' unit. All 0 for an empty list.
+/// Statistics of a list of errors, in the errors' unit. All 0 for an empty list.
 struct Statistics {
   std::size_t count = 0;
   double rmse = 0.0;  // sqrt(mean of squares)
   double mean = 0.0;
-  double median = 0.0;  // of an even count: the mean of the two in the middle
+  double median = 0.0;  // for an even count the mean of the two middle values
   double min = 0.0;
   double max = 0.0;
   double p99 = 0.0;                 // see percentile()
@@ -21,9 +21,9 @@ struct Statistics {
 
 Statistics statistics(const std::vector<double>& values);
 
-/// The value below which `percent` (0..100) of the sorted list lies: at place percent/100 * (n - 1), counted from 0,
-/// with linear interpolation between its two neighbours (numpy's default, type 7 of Hyndman and Fan 1996). sorted must
-/// be ascending; 0 for an empty list.
+/// Percentile (percent: 0..100) of a list in ascending order: the value at position percent/100 * (n - 1), counted from
+/// 0, with linear interpolation between neighbours (numpy's default, type 7 of Hyndman and Fan 1996). 0 for an empty
+/// list.
 double percentile(const std::vector<double>& sorted, double percent);
 
 }  // namespace odosplat

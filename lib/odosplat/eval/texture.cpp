@@ -9,8 +9,8 @@
 namespace odosplat {
 namespace {
 
-constexpr float strong = 8.0F;  // grey levels a pixel
-constexpr int block = 32;       // pixels a side
+constexpr float strong = 8.0F;  // grey levels per pixel
+constexpr int block = 32;       // pixels per side
 constexpr double bare = 0.01;
 
 struct Count {

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A FIFO would hang, a device would never end.
+// The name of a file type that is not read: reading a FIFO could block, and a device may never end.
 std::string not_regular(mode_t mode) {
   const char* kind = S_ISDIR(mode)                    ? "a folder"
                      : S_ISFIFO(mode)                 ? "a pipe (FIFO)"
@@ -36,7 +36,7 @@ std::string reason_of(const std::system_error& e) {
   return e.code().value() == ESTALE ? "its temporary file was replaced by another program" : e.code().message();
 }
 
-/// Those that were missing.
+/// Creates the folder and its parents; returns those that were missing.
 MadeFolders make_folder(const std::string& folder, const std::string& named_in_error) {
   std::error_code error;
   std::vector<std::string> missing;
@@ -46,7 +46,7 @@ MadeFolders make_folder(const std::string& folder, const std::string& named_in_e
   }
   fs::create_directories(folder, error);
   if (error) {
-    const MadeFolders some(std::move(missing));  // parents may have been made
+    const MadeFolders some(std::move(missing));  // removes parents that were created before the failure
     throw InputError(named_in_error, cannot_write(error.message()));
   }
   return MadeFolders(std::move(missing));
@@ -57,8 +57,8 @@ std::string parent_of(const std::string& path) {
   return parent.empty() ? "." : parent;
 }
 
-/// The file that writing to the path is about: links at its end are followed here, since rename() replaces a link, and
-/// only those that a stranger cannot have planted.
+/// The file that writing to the path replaces. Links at its end are resolved here, because rename() would replace the
+/// link itself. Links of other users (except root) are refused, because they could redirect the output.
 std::string resolved(const std::string& path) {
   constexpr int most_links = 40;
   fs::path at(path);
@@ -71,12 +71,12 @@ std::string resolved(const std::string& path) {
     std::error_code error;
     const fs::path next = fs::read_symlink(at, error);
     if (error) throw InputError(path, cannot_write(error.message()));
-    at = at.parent_path() / next;  // an absolute path stays
+    at = at.parent_path() / next;  // operator/ leaves an absolute `next` as it is
   }
   throw InputError(path, cannot_write("too many links"));
 }
 
-/// True if a file is there, which is a regular one; InputError if it is anything else.
+/// True if the target exists and is a regular file, false if it does not exist; InputError if it is anything else.
 bool find_replaced(const std::string& path, const std::string& target, struct stat& status) {
   if (::lstat(target.c_str(), &status) != 0) return false;
   if (S_ISDIR(status.st_mode)) throw InputError(path, cannot_write("is a folder"));
@@ -97,7 +97,7 @@ void prove_writable(const std::string& folder, const std::string& named_in_error
 }  // namespace
 
 MadeFolders::~MadeFolders() {
-  // remove() takes a folder only when it is empty.
+  // remove() deletes a folder only if it is empty.
   for (const std::string& folder : folders_) {
     std::error_code ignored;
     if (fs::is_directory(folder, ignored)) fs::remove(folder, ignored);
@@ -113,7 +113,7 @@ AtomicFile::AtomicFile(std::string path, TemporaryName name)
     old_group_ = old.st_gid;
   }
   try {
-    // What replaces a private file must not be readable in the making either.
+    // If it replaces a file, the temporary file is private until it gets that file's mode, which may be private.
     std::string extension = name == TemporaryName::plain ? "" : fs::path(path_).extension().string();
     for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     temporary_ = std::make_unique<TemporaryFile>(target_, old_mode_ < 0 ? 0666 : 0600, extension);
@@ -142,9 +142,9 @@ void AtomicFile::commit(Durability durability) {
     struct stat made {};
     if (::fstat(file, &made) != 0) fail(std::strerror(errno));
     const bool same_group = made.st_gid == old_group_ || ::fchown(file, static_cast<uid_t>(-1), old_group_) == 0;
-    // Another group gets what everybody has.
+    // If the group cannot be kept, the new group gets only the permissions of others.
     if (!same_group) mode = (mode & ~070U) | ((mode & 07U) << 3U);
-    // Only root may give files away; for others the new file is their own.
+    // Only root may change the owner of a file; for other users the new file belongs to them.
     if (made.st_uid != old_owner_ && ::fchown(file, old_owner_, static_cast<gid_t>(-1)) != 0 && errno != EPERM) {
       fail(std::strerror(errno));
     }
@@ -188,7 +188,7 @@ MadeFolders ensure_output_file(const std::string& path) {
 }
 
 std::string read_file(const std::string& path, std::uint64_t max_bytes) {
-  // O_NONBLOCK: opening a FIFO would wait for its writer. Regular files do not know the difference.
+  // O_NONBLOCK, because opening a FIFO would otherwise wait for its writer. It has no effect on regular files.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) throw InputError(path, errno == ENOENT ? "is missing" : std::strerror(errno));
   struct stat status {};
@@ -215,7 +215,7 @@ std::string read_file(const std::string& path, std::uint64_t max_bytes) {
       ::close(file);
       throw InputError(path, std::string("cannot be read: ") + std::strerror(error));
     }
-    // Files of /proc have a size of 0, and others grow.
+    // Checked again while reading: files of /proc have size 0, and a file may grow.
     refuse_above(content.size() + static_cast<std::uint64_t>(n));
     content.append(block, static_cast<std::size_t>(n));
   }

@@ -12,15 +12,16 @@ namespace odosplat {
 namespace {
 
 struct Format {
-  const char* extension;   // empty: told by its bytes alone
-  std::string_view magic;  // empty: told by its extension alone
+  const char* extension;   // empty: recognised by its first bytes only
+  std::string_view magic;  // empty: recognised by its extension only
   const char* fault;
 };
 
 constexpr std::string_view gzip = "\x1f\x8b";
 constexpr std::string_view zip = "PK\x03\x04";
 
-// Where both are given one is enough, but for archives, of which the extension tells what they hold.
+// If both are given, one of them is enough. Archives come last, so that the extension of a map that is stored as an
+// archive (.spz, .sog) is recognised first.
 constexpr std::array<Format, 8> formats{
     {{".spz", "NGSP", "is a map in SPZ, which is not read: convert it to PLY first, as with splat-transform"},
      {".sog", "", "is a map in SOG, which is not read: convert it to PLY first, as with splat-transform"},

@@ -10,7 +10,7 @@
 
 namespace odosplat {
 
-/// The value whose bytes, least significant first, start there; no alignment needed.
+/// The value whose bytes, least significant first, start at `bytes`; no alignment needed.
 template <typename T>
 T load_little(const char* bytes) {
   std::array<char, sizeof(T)> ordered;

@@ -39,7 +39,7 @@ std::string random_digits() {
   return text;
 }
 
-// Names of files have a longest length; the start of a long one tells it well enough.
+// Shortens names so that the temporary name does not exceed NAME_MAX; their start is enough to recognise them.
 std::string stem_of(const std::string& name) {
   constexpr std::size_t longest_extension = 8;
   constexpr std::size_t added = mark.size() + digits + ending.size() + longest_extension;
@@ -88,7 +88,7 @@ TemporaryFile::TemporaryFile(const std::string& path, mode_t mode, const std::st
     if (file_ < 0) fail();
     const bool locked = ::flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
     struct stat status {};
-    // Whoever removes leftovers may have come between the two calls.
+    // Between open() and flock() another process may have removed the file as a leftover: then try again.
     if (locked && ::fstat(file_, &status) == 0 && status.st_nlink > 0) return;
     ::close(std::exchange(file_, -1));
   }
@@ -106,7 +106,7 @@ void TemporaryFile::rename_to(const std::string& path, bool synced) {
   if (mine.st_ino != there.st_ino || mine.st_dev != there.st_dev) {
     throw std::system_error(ESTALE, std::generic_category(), "its temporary file was replaced");
   }
-  // Some file systems have no such call.
+  // Some file systems do not support fsync().
   if (synced && ::fsync(file_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS) fail();
   if (std::rename(name_.c_str(), path.c_str()) != 0) fail();
   name_.clear();

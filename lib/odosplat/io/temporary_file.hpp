@@ -8,16 +8,16 @@
 
 namespace odosplat {
 
-/// Temporary files beside an output, called NAME.odosplat-<16 hexadecimal digits>.part (the output's extension follows
-/// where an encoder tells the format by it). Names are random and made exclusively, so that nothing planted there is
-/// opened or followed. Each is locked (flock) while its process works on it: one that nobody holds is the leftover of a
-/// process that was killed. Private to this folder.
+/// A temporary file in the folder of an output, called NAME.odosplat-<16 hexadecimal digits>.part (followed by the
+/// output's extension if an encoder chooses the format by it). Names are random and files are created exclusively
+/// (O_EXCL), so that no file or link that somebody else placed there is opened. Each is locked (flock) while its
+/// process works on it: a file without a lock was left by a process that was killed. Private to this folder.
 class TemporaryFile {
  public:
-  /// Makes an empty file beside `path`, which must not end in a link. mode: as open() takes it, before the umask.
-  /// extension: ".mp4", ".avi" or none. Throws std::system_error.
+  /// Creates an empty file in the folder of `path`, which must not end in a link. mode: as for open(), before the
+  /// umask. extension: ".mp4", ".avi" or none. Throws std::system_error.
   TemporaryFile(const std::string& path, mode_t mode, const std::string& extension = "");
-  /// Removes it unless it was renamed.
+  /// Removes the file unless it was renamed.
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -25,7 +25,7 @@ class TemporaryFile {
   int descriptor() const { return file_; }
   const std::string& name() const { return name_; }
 
-  /// Puts it in place of `path`. synced: file and folder entry are on the disk when this returns. Throws
+  /// Renames the file to `path`. synced: file and folder entry are written to the disk when this returns. Throws
   /// std::system_error.
   void rename_to(const std::string& path, bool synced);
 
@@ -34,9 +34,9 @@ class TemporaryFile {
   int file_ = -1;
 };
 
-/// Removes temporary files of outputs called `name` or `name.ANYTHING`, such as a checkpoint's, in a folder (empty: of
-/// all outputs) that belong to this user and are held by no process. Locks do not reach other machines, so nothing is
-/// removed on network file systems. Never throws.
+/// Removes temporary files in `folder` that belong to this user and are locked by no process: those of outputs called
+/// `name` or `name.ANYTHING` (such as a checkpoint's), or of all outputs if `name` is empty. Removes nothing on network
+/// file systems, because locks of other machines are not visible there. Never throws.
 void remove_leftovers(const std::string& folder, const std::string& name);
 
 }  // namespace odosplat

@@ -18,11 +18,11 @@ namespace {
 
 constexpr int spacing_neighbors = 6;
 constexpr float max_spacing_medians = 4.0F;
-constexpr float border_spacings = 0.75F;   // how far a surface is taken to reach beyond its outermost points
-constexpr float fallback_spacings = 3.0F;  // how far the fitted plane is trusted to lead away from its point
+constexpr float border_spacings = 0.75F;   // how far a surface extends beyond its outermost points
+constexpr float fallback_spacings = 3.0F;  // largest depth difference between a fitted plane's point and a pixel on it
 constexpr float min_radius_px = 1.5F;
-constexpr float least_width = 0.1F;  // of a triangle: twice its area over its longest side squared
-constexpr float max_weight = 2.0F;   // of one point: more is extrapolation
+constexpr float least_width = 0.1F;  // of a triangle: twice its area over the square of its longest side
+constexpr float max_weight = 2.0F;   // largest absolute weight of a point; more would extrapolate too far
 
 PointCloud finite_part(const PointCloud& cloud) {
   PointCloud finite;
@@ -34,13 +34,13 @@ PointCloud finite_part(const PointCloud& cloud) {
   return finite;
 }
 
-// What one pixel is interpolated from.
+// The three points between which one pixel is interpolated.
 struct Triple {
   const ProjectedPoint* points[3];
   float weights[3];  // barycentric, sum 1
 };
 
-// Barycentric weights of (x, y) in the triangle; false if the triangle is too thin or the pixel too far out.
+// Barycentric weights of (x, y) in the triangle; false if the triangle is too thin or the pixel too far outside it.
 bool weigh(Triple& triple, float x, float y) {
   const ProjectedPoint& a = *triple.points[0];
   const ProjectedPoint& b = *triple.points[1];
@@ -132,7 +132,8 @@ class PixelInterpolator {
     return points_[static_cast<std::size_t>(found.points[i])];
   }
 
-  // The nearest points that are near enough for their spacing and whose plane is the front surface at this pixel.
+  // The nearest points within the radius that follows from their spacing, and whose plane belongs to the front surface
+  // at this pixel.
   PointGrid::Found points_around(float x, float y, float surface) const {
     const auto accept = [&](const ProjectedPoint& p, float squared_distance) {
       const float radius = std::max(
@@ -143,7 +144,7 @@ class PixelInterpolator {
     return grid_.nearest(x, y, static_cast<float>(options_.max_radius_px), accept);
   }
 
-  // The nearest point and the next two that make a triangle worth the name.
+  // The nearest point and the next two that form a triangle with usable weights.
   bool choose_triple(const PointGrid::Found& found, float x, float y, Triple& triple) const {
     triple.points[0] = &point(found, 0);
     for (int k = 2; k < found.count; ++k) {
@@ -156,7 +157,7 @@ class PixelInterpolator {
     return false;
   }
 
-  // Whether the three can be neighbours on one surface: each near the others' planes.
+  // Whether the three points can be neighbours on one surface: each lies near the planes of the other two.
   bool one_surface(const Triple& triple) const {
     const auto connected = [&](const ProjectedPoint& a, const ProjectedPoint& b) {
       const Eigen::Vector3f d = b.p_camera - a.p_camera;

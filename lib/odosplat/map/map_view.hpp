@@ -12,43 +12,43 @@
 
 namespace odosplat {
 
-/// What a map looks like from one pose. Images are either empty (not asked for, or not to be had from this kind of
-/// map) or as large as the camera asked with.
+/// Images of a map seen from one pose. Each is either empty (not requested, or not provided by this kind of map) or of
+/// the requested camera's size.
 struct ViewImages {
-  DepthImage depth;  // [m], 0 where the map says nothing
+  DepthImage depth;  // [m], 0 where the map has no depth
   cv::Mat1f sigma;   // [m] standard deviation of depth, 0 where depth is 0
-  cv::Mat1f alpha;   // 0..1, how much of the pixel the map covers
+  cv::Mat1f alpha;   // 0..1, share of the pixel that the map covers
   ColorImage color;  // 0..1, R G B
 };
 
-/// Which images a caller wants; depth is always made, with sigma where the view knows it.
+/// Which images a caller wants; depth is always rendered, with sigma where the view knows it.
 struct ViewRequest {
   bool color = false;
   bool alpha = false;
 };
 
-/// Images in which the map says nothing, as large as the camera's: depth and sigma, alpha if it is asked for, black
-/// colours if they are asked for and `colors` says that the map has them.
+/// Images of the camera's size for a view without any map data: zero depth and sigma; zero alpha if requested; black
+/// colours if requested and if the map has colours (`colors`).
 ViewImages blank_images(const Camera& camera, const ViewRequest& request, bool colors);
 
-/// A prior map as its users see it: something that can be looked at from a pose. The odometry knows this interface and
-/// none of its implementations (Gaussians, interpolated cloud, surfels, a depth sensor).
+/// Interface of a prior map that can be rendered from any pose. The odometry depends on this interface and on none of
+/// its implementations (Gaussians, interpolated cloud, surfels, a depth sensor).
 class MapView {
  public:
   virtual ~MapView() = default;
 
-  /// Renders the map seen from T_world_camera. A map with nothing in view gives images of zeros, not an error.
-  /// The same call gives the same bits. Blocks. Not thread safe. Throws on a broken device only.
+  /// Renders the map seen from T_world_camera. If nothing is in view, the images are zero; this is not an error.
+  /// Equal calls give bit-identical results. Blocks until done. Not thread safe. Throws only if the device fails.
   virtual ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) = 0;
 
-  /// The same at some pixels only (x: column, y: row), for consumers that use a few thousand of them: images of one
-  /// row, pixels.size() wide, in the order given; pixels may repeat. The values are those of render. This one renders
-  /// everything and picks; views that can do with less work override it. Throws InputError for a pixel outside the
-  /// camera's image.
+  /// Renders only the given pixels (x: column, y: row), for callers that need a few thousand of them. Returns images of
+  /// one row, pixels.size() wide, in the order given; pixels may repeat. The values equal those of render(). This
+  /// default renders the whole image and picks the pixels; views that can render them with less work override it.
+  /// Throws InputError for a pixel outside the camera's image.
   virtual ViewImages render_pixels(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request,
                                    const std::vector<cv::Point>& pixels);
 
-  /// A word for logs and reports: "gaussian", "interpolation", ...
+  /// The name of this kind of map in logs and reports: "gaussian", "interpolation", ...
   virtual std::string name() const = 0;
 };
 

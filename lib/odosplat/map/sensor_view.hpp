@@ -7,29 +7,29 @@
 namespace odosplat {
 
 struct SensorViewOptions {
-  double sigma_constant = 0.0012;  // [m] deviation of near depths
+  double sigma_constant = 0.0012;  // [m] standard deviation of depths up to `nearest`
   double sigma_square = 0.0019;    // [1/m] growth with the square of the depth beyond `nearest`
-  double nearest = 0.4;            // [m] where that growth begins
+  double nearest = 0.4;            // [m] depth at which that growth begins
 
   void check() const;
 
-  /// [m] of a measured depth z [m].
+  /// Standard deviation [m] of a measured depth z [m].
   double sigma(double z) const {
     const double beyond = z > nearest ? z - nearest : 0.0;
     return sigma_constant + sigma_square * beyond * beyond;
   }
 };
 
-/// A depth sensor in the place of a map, for an RGB-D baseline: what render() gives is the depth image that was set,
-/// whatever the pose, so it must be set anew for every frame before the frame is tracked.
+/// A depth sensor used in place of a map, for an RGB-D baseline: render() returns the depth image that was set,
+/// whatever the pose, so the depth of every frame must be set before that frame is tracked.
 /// sigma(z) = sigma_constant + sigma_square (z - nearest)^2: Nguyen, Izadi, Lovell 2012, "Modeling Kinect sensor
 /// noise", equation 2. alpha is 1 where there is depth. No colour.
 class SensorView : public MapView {
  public:
   explicit SensorView(const SensorViewOptions& options = {});
 
-  /// depth [m]; values that are not finite or not positive count as none. Shares nothing with the caller's image.
-  /// An empty image: no depth until the next call.
+  /// depth [m]; values that are not finite or not positive count as no depth. The image is copied. After an empty image
+  /// there is no depth until the next call.
   void set_depth(const DepthImage& depth);
 
   /// camera must have the size of the depth image, else InputError.

@@ -30,13 +30,14 @@ PointCloud finite_part(const PointCloud& cloud) {
   return finite;
 }
 
-// Rows and columns that a disc can touch; empty if last < first.
+// First and last column (x0, x1) and row (y0, y1) that a disc can touch; empty if last < first.
 struct Box {
   int x0, x1, y0, y1;
 };
 
 Box bounds(const ProjectedPoint& p, const Camera& camera, float radius) {
-  // A disc of radius r with normal n reaches r sqrt(1 - n_i^2) along axis i; its near side looks larger.
+  // A disc of radius r with normal n extends r sqrt(1 - n_i^2) along axis i; the depth of its near side is used, which
+  // projects larger.
   const float reach_z = radius * std::sqrt(std::max(0.0F, 1.0F - p.n_camera.z() * p.n_camera.z()));
   const float z = std::max(p.p_camera.z() - reach_z, 0.5F * p.p_camera.z());
   const float share = reach_z / z;
@@ -46,7 +47,8 @@ Box bounds(const ProjectedPoint& p, const Camera& camera, float radius) {
   const Eigen::Vector3f ray = p.p_camera / p.p_camera.z();
   const float reach_x = along(p.n_camera.x(), static_cast<float>(camera.fx), ray.x());
   const float reach_y = along(p.n_camera.y(), static_cast<float>(camera.fy), ray.y());
-  // Limits as floats first: discs right before the camera can be larger than an int. The nearest pixel is always in.
+  // Clamped as floats before the conversion: discs very near to the camera can exceed the range of int. The pixel
+  // nearest to the centre is always included.
   const auto low = [](float a, float b) {
     return static_cast<int>(std::max(std::min(std::ceil(a), std::round(b)), 0.0F));
   };
@@ -60,10 +62,10 @@ Box bounds(const ProjectedPoint& p, const Camera& camera, float radius) {
 // The nearest surfel at every pixel.
 struct NearestSurfels {
   cv::Mat1f inverse_depth;  // [1/m], 0 = none
-  cv::Mat1i point;          // among the projected points
+  cv::Mat1i point;          // index among the projected points
 };
 
-// One surfel, asked by rays. Float throughout: this is the inner loop.
+// Intersection of rays with one surfel. In single precision, because this is the inner loop.
 class Disc {
  public:
   Disc(const ProjectedPoint& p, const Camera& camera, float radius)
@@ -76,9 +78,9 @@ class Disc {
 
   float inverse_depth(float dx, float dy) const { return p_.inverse_depth + p_.slope_v * dy + p_.slope_u * dx; }
 
-  // Whether the ray (dx, dy) [px] beside the centre meets the disc, at inverse depth w > 0.
+  // Whether the ray (dx, dy) [px] from the disc's centre hits the disc, at inverse depth w > 0.
   bool covers(float dx, float dy, float w) const {
-    // Distance of the ray's point from the centre, times w: no division by depth.
+    // Vector from the centre to the ray's point, multiplied by w to save a division.
     const float ex = ray_x_ + dx * inverse_fx_ - w * p_.p_camera.x();
     const float ey = ray_y_ + dy * inverse_fy_ - w * p_.p_camera.y();
     const float ez = 1.0F - w * p_.p_camera.z();
@@ -94,7 +96,7 @@ class Disc {
   float inverse_fy_;
 };
 
-// Rows y0..y1 - 1 of the surfels listed.
+// Draws rows y0..y1 - 1 of the listed surfels.
 void draw_band(const std::vector<ProjectedPoint>& points, const std::vector<Box>& boxes, const std::vector<int>& listed,
                const Camera& camera, float radius, int y0, int y1, NearestSurfels& out) {
   for (const int index : listed) {
@@ -113,7 +115,7 @@ void draw_band(const std::vector<ProjectedPoint>& points, const std::vector<Box>
         owner[x] = seen ? index : owner[x];
       }
     }
-    // Between pixel centres there is no ray; the one next to the surfel's centre stands for it.
+    // A small disc may lie between pixel centres, where no ray hits it: it is drawn at the pixel nearest to its centre.
     const int x = static_cast<int>(std::clamp(std::round(p.u), -1.0F, static_cast<float>(camera.width)));
     const int y = static_cast<int>(std::clamp(std::round(p.v), -1.0F, static_cast<float>(camera.height)));
     if (y < y0 || y >= y1 || x < 0 || x >= camera.width) continue;

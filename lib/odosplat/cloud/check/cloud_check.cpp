@@ -15,11 +15,12 @@
 namespace odosplat {
 namespace {
 
-constexpr double good_error = 0.35;  // at which no smaller gap is looked at
-constexpr double rows_share = 0.6;   // of the work; the fit takes the rest
+constexpr double good_error = 0.35;  // below it, no smaller gap is tried
+constexpr double rows_share = 0.6;   // share of the work for progress; the fit takes the rest
 
-// What patches are looked for a few pixels from where they should be can find. A fit that ends beyond that has followed
-// a cloud of another shape: those were measured to end at 0.33 of the depth, 22 to 86 degrees, or 3.7 times the scale.
+// The range of valid fits: patches are searched only a few pixels around their expected position, so larger corrections
+// cannot be found reliably. Fits of a cloud with another shape end beyond these limits (at an offset of 0.33 of the
+// depth, rotations of 22 to 86 degrees, or 3.7 times the scale).
 constexpr double reach_offset = 0.25;  // of the median depth
 constexpr double reach_turn_deg = 15.0;
 constexpr double reach_ln_scale = 0.25;
@@ -29,7 +30,7 @@ bool leaves_reach(const CloudFit& fit) {
          std::abs(std::log(fit.scale.value)) > reach_ln_scale;
 }
 
-// Whether the images that the pairs begin with show texture where the cloud is seen, under the best row.
+// Whether, under the reading, at least half of the pairs' first images have texture where the cloud is visible.
 bool is_textured(CloudMaterial& material, const CloudReading& reading, const std::vector<ImagePair>& pairs) {
   std::size_t textured = 0;
   for (const ImagePair& pair : pairs) {
@@ -67,7 +68,7 @@ std::optional<CloudFit> fit_reading(CloudMaterial& material, const CloudCheckInp
   return result;
 }
 
-// The control with the cloud moved, and the focal length changed, as was fitted.
+// The scores with the cloud and focal length corrected by the fit.
 CloudControl corrected_control(CloudMaterial& material, const CloudCheckReport& report, const Camera& camera,
                                const std::vector<ImagePair>& pairs, const CloudCheckOptions& options) {
   const CloudFit& fit = *report.fit;
@@ -83,7 +84,7 @@ CloudControl corrected_control(CloudMaterial& material, const CloudCheckReport& 
   return measure_control(material, world, report.winner, pairs, options);
 }
 
-// All that is measured of the cloud in its present unit; findings and verdict are left open.
+// Measures the cloud in its current unit; findings and verdict are not set.
 CloudCheckReport examine(CloudMaterial& material, const CloudCheckInput& input, const CloudCheckOptions& options) {
   CloudCheckReport report;
   report.declared = {input.fy_sign, false, false, 0};
@@ -105,7 +106,7 @@ CloudCheckReport examine(CloudMaterial& material, const CloudCheckInput& input, 
       report.pairs = static_cast<int>(pairs.size());
       used = pairs;
     }
-    // Without any patch the length of the gap changes nothing.
+    // Without any patch a shorter gap cannot help.
     if (report.rows.front().relative_error <= good_error || material.patches() == 0) break;
   }
   if (report.rows.empty()) throw InputError("sequence", "no two images with pose are near each other in the list");

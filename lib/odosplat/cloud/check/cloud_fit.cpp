@@ -17,17 +17,17 @@ namespace {
 
 constexpr int unknowns = 8;  // shift, rotation, ln scale, ln focal length
 constexpr int groups = 8;
-constexpr std::size_t least_matches = 40;  // of a pair
-constexpr double most_shift = 6.0;         // [px] that a patch is looked for
-constexpr double least_share = 0.1;        // of the patches that must be found
-constexpr double clear_texture = 0.02;     // least eigenvalue of a match's information that counts
-constexpr double least_spread = 0.05;      // [px] of the matches: they are not known better
+constexpr std::size_t least_matches = 40;  // per pair
+constexpr double most_shift = 6.0;         // [px] search radius for a patch
+constexpr double least_share = 0.1;        // share of the patches that must be found
+constexpr double clear_texture = 0.02;     // directions with a smaller eigenvalue of a match's information are not used
+constexpr double least_spread = 0.05;      // [px] lower limit for the spread of the matches
 constexpr double radian = 180.0 / 3.14159265358979323846;
 constexpr double prior_turn = 0.2;
 constexpr double prior_scale = 0.2;
 constexpr double prior_share = 0.5;  // of the median depth
 constexpr double step = 1e-4;        // of numeric derivatives
-// What errors of the poses, the shutter and the lens make of it however many patches there are.
+// Floors of the sigmas: errors due to poses, shutter and lens, which more patches do not reduce.
 constexpr double floor_scale = 0.002;
 constexpr double floor_offset = 0.002;  // of the median depth
 constexpr double floor_turn_deg = 0.1;
@@ -36,7 +36,7 @@ using Vector8d = Eigen::Matrix<double, unknowns, 1>;
 using Matrix8d = Eigen::Matrix<double, unknowns, unknowns>;
 using Row8d = Eigen::Matrix<double, 1, unknowns>;
 
-// What is fitted so far.
+// The fit so far.
 struct State {
   Similarity world_from_cloud;
   double focal = 1.0;  // factor
@@ -63,7 +63,8 @@ std::vector<Pair> pairs_of(const CloudFitInput& input, int gap, int wanted) {
   return pairs;
 }
 
-// One direction in which a patch was found: its distance from where it should be, and what the unknowns do to that.
+// The equation of one direction of a match: the distance between expected and found position, and its derivatives by
+// the unknowns.
 struct Equation {
   Row8d row = Row8d::Zero();
   double distance = 0.0;  // [px]
@@ -76,7 +77,8 @@ struct Measurement {
   std::size_t patches = 0;
 };
 
-// Where the image `to` shows what pixel (x, y) of `from` does, with the plane moved by the unknowns about `middle`.
+// Position in the image `to` of the surface point at the patch's pixel in `from`, with the patch's plane moved by the
+// unknowns about `middle`.
 Eigen::Vector2d predict(const Vector8d& t, const VisiblePatch& patch, const Eigen::Vector3d& p_world,
                         const Eigen::Vector3d& n_world, const Eigen::Vector3d& middle, const Camera& camera,
                         const SE3& T_world_from, const SE3& T_world_to) {
@@ -115,7 +117,7 @@ Measurement measure(const CloudFitInput& input, const PointCloud& cloud, const s
     const auto at = static_cast<std::size_t>(patch.index);
     const Eigen::Vector3d n = cloud.normals[at].cast<double>();
     const Eigen::Vector3d ray = T_world_from.rotation() * camera.ray(patch.x, patch.y);
-    // The plane as the patch has it: tilted where it is seen edge-on.
+    // The patch's plane is tilted where it is seen edge-on, so the point's normal is not valid there.
     if (std::abs(n.dot(ray.normalized())) < 0.15) continue;
     const Eigen::Vector3d p = T_world_from.translation() + ray / static_cast<double>(patch.inverse_depth);
     Eigen::Matrix<double, 2, unknowns> J;
@@ -147,7 +149,7 @@ struct Normals {
   Vector8d vector = Vector8d::Zero();
 };
 
-// One group's share of the normal equations, in units of the matches' spread.
+// The normal equations of each group, in units of the matches' spread.
 std::vector<Normals> normal_equations(const std::vector<Measurement>& measurements, const Vector8d& around,
                                       double& spread) {
   std::vector<double> sizes;
@@ -173,10 +175,10 @@ std::vector<Normals> normal_equations(const std::vector<Measurement>& measuremen
 struct Solution {
   Vector8d value = Vector8d::Zero();
   Matrix8d covariance = Matrix8d::Zero();
-  std::vector<Vector8d> without;  // without one group each
+  std::vector<Vector8d> without;  // jackknife: solutions without one group each
 };
 
-// prior: information about the unknowns, centred on what they were at the very beginning (`so_far` away from here).
+// prior: information about the unknowns, centred on their initial values, from which they have moved by `so_far`.
 Solution solve(const std::vector<Measurement>& measurements, const Vector8d& prior, const Vector8d& so_far) {
   Solution solution;
   std::vector<Normals> normals;
@@ -204,13 +206,13 @@ Solution solve(const std::vector<Measurement>& measurements, const Vector8d& pri
 State apply(const State& state, const Vector8d& change, const Eigen::Vector3d& middle) {
   const double scale = std::exp(change[6]);
   const Eigen::Quaterniond turn = so3_exp(change.segment<3>(3));
-  // p -> middle + shift + scale * R * (p - middle), after what was there.
+  // p -> middle + shift + scale * R * (p - middle), applied after the previous similarity.
   const Similarity& old = state.world_from_cloud;
   const Eigen::Vector3d t = middle + change.head<3>() + scale * (turn * (old.T_target_source.translation() - middle));
   return {{scale * old.scale, SE3(turn * old.T_target_source.rotation(), t)}, state.focal * std::exp(change[7])};
 }
 
-// All of it as one step from where the cloud was.
+// The whole state as a single step from the cloud's initial place.
 Vector8d total_of(const State& state, const Eigen::Vector3d& middle) {
   Vector8d total;
   const Similarity& s = state.world_from_cloud;
@@ -233,7 +235,7 @@ Eigen::Vector3d middle_of(const CloudFitInput& input, const std::vector<Measurem
   return {median_of(axes[0]), median_of(axes[1]), median_of(axes[2])};
 }
 
-// [px] that is left with the unknowns at `t`.
+// Median residual [px] with the unknowns at `t`.
 double median_distance(const std::vector<Measurement>& measurements, const Vector8d& t) {
   std::vector<double> distances;
   for (const Measurement& m : measurements) {
@@ -252,7 +254,7 @@ Measured with_sigma(double value, double formal, double floor, const std::vector
   return {value, std::hypot(floor, std::max(formal, jackknife))};
 }
 
-// A vector's length, and the sigma along it, or the largest one if there is hardly any length.
+// The length of a vector and its sigma along the vector; the largest sigma of any direction if the length is below it.
 Measured length_of(const Eigen::Vector3d& value, const Eigen::Matrix3d& covariance, double floor,
                    const std::vector<Eigen::Vector3d>& without) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -291,7 +293,8 @@ CloudFit fit_cloud(const CloudFitInput& input, const CloudFitOptions& options) {
   Vector8d so_far = Vector8d::Zero();
   Vector8d last = Vector8d::Zero();
   Solution solution;
-  // From near to far: a cloud that is off shows the less the nearer the two cameras are, and is found there first.
+  // From short to long gaps: the nearer the two cameras, the smaller the shift that an error of the cloud causes, so
+  // that patches are still found within the search radius.
   const std::vector<std::vector<int>> stages{{1, 2}, {1, 2}, {2, 4}, {1, 2, 4, 8}, {1, 2, 4, 8}, {1, 2, 4, 8}};
   bool first = true;
   double done = 0.0;
@@ -322,7 +325,7 @@ CloudFit fit_cloud(const CloudFitInput& input, const CloudFitOptions& options) {
       prior << Eigen::Vector3d::Constant(1.0 / (shift * shift)),
           Eigen::Vector3d::Constant(1.0 / (prior_turn * prior_turn)), 1.0 / (prior_scale * prior_scale),
           1.0 / (prior_scale * prior_scale);
-      continue;  // the derivatives were about another middle
+      continue;  // the derivatives were computed about another middle
     }
     fit.patches = 0;
     for (const Measurement& m : measurements) fit.patches += static_cast<int>(m.matches);

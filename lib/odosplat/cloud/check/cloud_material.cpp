@@ -13,7 +13,7 @@
 namespace odosplat {
 namespace {
 
-constexpr std::size_t most_images = 64;  // that are kept in memory
+constexpr std::size_t most_images = 64;  // kept in memory
 
 // F T F with F = diag(1, -1, 1): the motion of the mirrored world.
 SE3 reflect(const SE3& T) {
@@ -28,7 +28,7 @@ PointCloud mirrored(PointCloud cloud) {
   return cloud;
 }
 
-// [m] of the middle 90 % of the points, along the longest axis.
+// Extent [m] of the middle 90 % of the points along the longest axis.
 double extent_of(const PointCloud& cloud) {
   double longest = 0.0;
   for (int a = 0; a < 3; ++a) {

@@ -11,31 +11,31 @@
 
 namespace odosplat {
 
-/// A cloud and a camera that patches are looked at by.
+/// The cloud and the camera with which patches are compared.
 struct PatchWorld {
   const PointCloud* cloud = nullptr;             // with normals [m, world]
-  const std::vector<float>* spacings = nullptr;  // [m] one a point
+  const std::vector<float>* spacings = nullptr;  // [m] one per point
   Camera camera;                                 // of the reduced images
 };
 
-/// Images, poses and cloud of a check, reduced to what it needs: the cloud thinned, with normals and spacings, the
-/// images halved until they are no wider than CloudCheckOptions::largest_width, the last ones kept.
+/// Images, poses and cloud of a check, reduced in size: the cloud is thinned and has normals and spacings; images are
+/// halved until they are no wider than CloudCheckOptions::largest_width, and a limited number is kept in memory.
 class CloudMaterial {
  public:
-  /// input must live as long. InputError for a cloud of fewer than 4 finite points.
+  /// input must outlive this object. Throws InputError for a cloud of fewer than 4 finite points.
   CloudMaterial(const CloudCheckInput& input, const CloudCheckOptions& options);
 
-  /// The cloud as it was given, times `factor` about the world's origin.
+  /// Sets the cloud to the given one, scaled about the world's origin by `factor`. Factors do not accumulate.
   void set_cloud_scale(double factor);
 
   PatchWorld world(bool mirrored) const;
-  /// Of `image`, reduced; InputError if it is not of the camera's size.
+  /// The reduced grey image; throws InputError if the image is not of the camera's size.
   const GrayImage& gray(std::size_t image);
-  /// T_world_camera of an image as a reading has it; none without a pose.
+  /// T_world_camera of an image under a reading; none if the image has no pose.
   std::optional<SE3> pose(std::size_t image, const CloudReading& reading) const;
   std::size_t images() const { return input_.T_world_camera.size(); }
 
-  /// Patches that were found so far.
+  /// Number of patches found so far.
   std::size_t patches() const { return patches_; }
   void count(std::size_t patches) { patches_ += patches; }
 

@@ -17,40 +17,40 @@
 
 namespace odosplat {
 
-/// Posed images with what their files say about them, and a cloud of the place.
+/// Posed images with the conventions that their files declare, and a cloud of the place.
 struct CloudCheckInput {
-  Camera camera;    // fy > 0; its sign as declared is fy_sign
+  Camera camera;    // fy > 0; the declared sign is fy_sign
   int fy_sign = 1;  // +1 or -1
-  // One an image, as the files have them: neither inverted nor reflected. None: the files have no pose for it.
+  // One per image, as stored in the files: neither inverted nor reflected. None: the files have no pose for the image.
   std::vector<std::optional<SE3>> T_world_camera;
-  // Grey image of the camera's size; called from one thread, for a few images again and again.
+  // Grey image of the camera's size; called from one thread, and repeatedly for some images.
   std::function<GrayImage(std::size_t)> gray;
-  // Called now and then with the share of the work that is done; may be empty. The share falls if more has to be done
-  // than was foreseen.
+  // Called from time to time with the share of the work done; may be empty. The share decreases if more work becomes
+  // necessary than was expected.
   std::function<void(double)> progress;
-  PointCloud cloud;  // [m] in the world that the poses are meant for once they are reflected for a negative fy
+  PointCloud cloud;  // [m] in the world frame of the poses after these are reflected for a negative fy
 };
 
 struct CloudCheckOptions {
-  int gap = 32;              // [frames] between the two images of a pair, less where images hardly overlap
+  int gap = 32;              // [frames] between the two images of a pair; shorter if images hardly overlap
   int pairs = 16;            // pairs of images, spread evenly
-  int max_shift = 3;         // [frames] shifts of the ids that are tried, either way
-  int patches = 800;         // looked at a pair
-  double min_overlap = 0.2;  // share of them that must be seen in the other image
-  double max_error = 0.5;    // largest error of a reading that is believed
-  int most_points = 60000;   // of the cloud that are used; more are thinned
+  int max_shift = 3;         // [frames] largest shift of the ids that is tried, in both directions
+  int patches = 800;         // per pair
+  double min_overlap = 0.2;  // share of them that must be visible in the other image
+  double max_error = 0.5;    // largest error of a reading that is accepted
+  int most_points = 60000;   // of the cloud that are used; larger clouds are thinned
   int largest_width = 400;   // [px] images are halved until they are no wider
-  // What is called wrong: the cloud's scale (less 1), an offset as a share of the median depth or a turn [rad] that
-  // moves things by as much, and the focal length as a share of it.
+  // The smallest deviations that are reported as errors: of the cloud's scale from 1; of the offset as a share of the
+  // median depth, and of the rotation [rad], which shifts points by the same amount; of the focal length, relative.
   double least_scale = 0.01;
   double least_offset = 0.015;
   double least_focal = 0.02;
-  double sure = 4.0;  // standard deviations
+  double sure = 4.0;  // [standard deviations] that a deviation must exceed to be reported
 
   void check() const;
 };
 
-/// One way to read the data.
+/// One interpretation of the data.
 struct CloudReading {
   int fy_sign = 1;
   bool mirrored = false;  // the cloud's y must be negated, as the poses are for a negative fy
@@ -59,37 +59,39 @@ struct CloudReading {
   bool operator==(const CloudReading&) const = default;
 };
 
-/// A row of the table. Its errors are medians of 1 - normalised cross correlation: 0 where the images agree, about 1
-/// where they have nothing in common.
+/// A row of the table. Its errors are medians of 1 - normalised cross correlation: 0 if the images agree, about 1 if
+/// they are unrelated.
 struct CloudRow : PairScores {
   CloudReading reading;
-  double overlap = 0.0;  // mean share of the patches that the other image shows
+  double overlap = 0.0;  // mean share of the patches that are visible in the other image
 };
 
-/// Whether the shape of the cloud is what makes patches agree. Two controls take its place: all patches of an image at
-/// one distance and facing the camera, and all too far off for any motion to show. A cloud that fits beats both; one of
-/// another place, turned, or in another unit does no better than a flat wall would.
+/// Tests whether patches agree because of the cloud's shape. The cloud is compared with two controls that replace it:
+/// `flat` has all patches of an image at one distance and facing the camera, `distant` has all patches so far away that
+/// the camera's motion does not shift them. A cloud that fits beats both; a cloud of another place, a rotated one, or
+/// one in another unit is no better than a flat wall.
 struct CloudControl {
   PairScores cloud;
   PairScores flat;
   PairScores distant;
 };
 
-/// What is said of one part.
+/// The result for one part of the data.
 struct CloudFinding {
   std::string part;           // "cloud unit", "fy", "cloud's y", "poses", "id shift", "cloud scale", "cloud offset",
                               // "cloud rotation", "focal length"
-  std::optional<bool> right;  // as declared; none: the data do not tell
+  std::optional<bool> right;  // whether it is as declared; none: not decidable from the data
   std::string text;           // one sentence; empty if right
 };
 
-/// agree: the cloud is shown to fit, nothing is found to differ, and its scale and place are measured well enough to
-/// say so. differ: a part is found to differ, or the cloud fits under no reading. undecided: the images do not tell.
+/// agree: the cloud is shown to fit, no part is found to differ, and its scale and offset are measured precisely
+/// enough. differ: a part is found to differ, or the cloud fits under no reading. undecided: the images do not decide
+/// it.
 enum class CloudAnswer { agree, differ, undecided };
 
 struct CloudCheckReport {
-  std::vector<CloudRow> rows;  // best first, with the cloud in the unit that was found
-  double unit = 1.0;           // the cloud's coordinates are this many times the poses' unit too large
+  std::vector<CloudRow> rows;  // best first, with the cloud converted by `unit`
+  double unit = 1.0;           // factor by which the cloud's coordinates are too large in the unit of the poses
   CloudReading declared;
   CloudReading winner;
   int gap = 0;
@@ -98,16 +100,16 @@ struct CloudCheckReport {
   bool textured = false;                  // enough of the cloud's visible points lie on texture
   std::optional<CloudFit> fit;            // of scale, offset, rotation and focal length; if believable and measurable
   CloudControl given;                     // of the winner, on the pairs of the rows
-  std::optional<CloudControl> corrected;  // with what was fitted; if there is a fit
-  double largest_gap_error = 0.0;         // the winner's at the largest gap that was looked at; infinite: no overlap
+  std::optional<CloudControl> corrected;  // the same with the fit applied; if there is a fit
+  double largest_gap_error = 0.0;         // error of the best row at the largest gap tried; infinite: no overlap
   std::vector<CloudFinding> findings;
   CloudAnswer answer = CloudAnswer::undecided;
   std::string verdict;  // one line
 
-  /// The cloud as given does better than both controls, and the fit does not want it elsewhere altogether.
+  /// The cloud as given beats both controls, and the fit does not move it beyond the range of valid fits.
   bool fits() const;
-  /// What was fitted is within what a fit from there can find, makes patches agree better than they do as given, and
-  /// better than both controls do with it.
+  /// The fit is within the range of valid fits, and with it patches agree better than as given and better than with
+  /// both controls.
   bool correction_gains() const;
 };
 

@@ -15,7 +15,7 @@ namespace odosplat {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double distant_share = 1e-4;  // of the inverse depth: too far for any motion to show
+constexpr double distant_share = 1e-4;  // factor on the inverse depth; so far away that motion causes no visible shift
 
 void level(std::vector<VisiblePatch>& patches, PatchDepths depths) {
   std::vector<double> inverse;

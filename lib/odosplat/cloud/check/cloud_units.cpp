@@ -10,7 +10,7 @@
 namespace odosplat {
 namespace {
 
-// Enough for beats(), and a fraction of the work of a whole check.
+// Enough for beats() at a fraction of the work of a whole check.
 constexpr int pairs_wanted = 8;
 constexpr int patches_wanted = 400;
 

@@ -8,8 +8,8 @@
 
 namespace odosplat {
 
-/// A factor of the cloud's coordinates, of those that units of length make, with which the cloud fits better than as
-/// given and better than both controls do; the best one, none if no factor is. Tried with what is declared and with the
+/// The factor for the cloud's coordinates, among those of length_units, with which the cloud fits best, and better than
+/// as given and than both controls; none if there is no such factor. Tried with the declared reading and with the
 /// report's winner.
 std::optional<double> likely_unit(CloudMaterial& material, const CloudCheckReport& report,
                                   const CloudCheckOptions& options);

@@ -86,7 +86,7 @@ CloudFinding part_finding(const CloudCheckReport& report, const Part& part, cons
   return finding;
 }
 
-// A measured departure: wrong if it is large and sure, open if it is not known well enough to say.
+// The finding for a measured deviation: wrong if it is large and significant, undecided if its sigma is too large.
 CloudFinding fit_finding(const char* part, double departure, double sigma, double least, double sure,
                          const std::string& wrong, const std::string& open) {
   CloudFinding finding;
@@ -110,7 +110,8 @@ std::vector<CloudFinding> fit_findings(const CloudFit& fit, const CloudCheckOpti
       fit_finding("cloud scale", std::abs(scale - 1.0), scale_sigma, o.least_scale, o.sure,
                   format("the cloud is %.4g times as large as the poses say, +- %.2g", scale, scale_sigma),
                   format("%.3g +- %.2g", scale, scale_sigma)));
-  // A cloud that is only scaled about the world's origin leaves that where it is, but not what is seen.
+  // If only the scale about the world's origin is wrong, the visible part is shifted but the origin is not. With a
+  // wrong scale the offset is therefore taken at the origin.
   const bool scaled = findings.back().right == false;
   const Measured& offset = scaled ? fit.origin_offset_m : fit.offset_m;
   findings.push_back(
@@ -147,7 +148,7 @@ void choose_reading(CloudCheckReport& report, double max_error) {
 
 namespace {
 
-// Both controls' errors beside the cloud's, for sentences.
+// The errors with the cloud and with both controls, as part of a sentence.
 std::string control_text(const CloudControl& control) {
   const auto text = [](const PairScores& scores) {
     return std::isfinite(scores.relative_error) ? format("%.2f", scores.relative_error) : std::string("-");
@@ -157,7 +158,7 @@ std::string control_text(const CloudControl& control) {
 }
 
 std::string doubt_text(const CloudCheckReport& report, const CloudCheckOptions& options) {
-  // Patches agree over the whole gap even with a cloud that is far off: nothing moved against it.
+  // If patches agree over the largest gap even with the distant control, the camera hardly moved relative to the scene.
   const CloudControl& given = report.given;
   const bool controls_lose = beats(given.cloud, given.flat) && beats(given.cloud, given.distant);
   const bool still = report.largest_gap_error <= options.max_error &&
@@ -172,7 +173,7 @@ std::string doubt_text(const CloudCheckReport& report, const CloudCheckOptions& 
          "are wrong, or images of one flat wall";
 }
 
-// Of what no correction is known to mend, nothing is accused.
+// Changes a finding of an error to "not decidable", for errors whose correction does not improve the agreement.
 void withdraw(CloudFinding& finding, const std::string& why) {
   if (finding.right != false) return;
   finding.right.reset();
@@ -210,7 +211,8 @@ void judge_cloud(CloudCheckReport& report, const CloudCheckOptions& options, con
                                           "mended",
                                           report.unit)});
   }
-  // Under a cloud that is not shown to fit, only what leaves the declared reading without any resemblance is named.
+  // If the cloud is not shown to fit, errors of the reading are reported only if patches do not agree at all under the
+  // declared reading.
   const CloudRow& declared = row_of(report, report.declared);
   const bool readings_tell = fits || gains || !(declared.relative_error <= options.max_error);
   for (const Part& part : parts) {

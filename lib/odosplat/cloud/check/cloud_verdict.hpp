@@ -6,11 +6,11 @@
 
 namespace odosplat {
 
-/// Fills the winner of a report whose rows are measured and sorted and whose declared reading is among them, and
-/// whether it is believable.
+/// Sets the winner of a report, and whether it is believable. The rows must have been measured and sorted, and the
+/// declared reading must be among them.
 void choose_reading(CloudCheckReport& report, double max_error);
 
-/// Fills findings and verdict, the fit's included if there is one.
+/// Sets findings, answer and verdict, including the findings of the fit if there is one.
 void judge_cloud(CloudCheckReport& report, const CloudCheckOptions& options, const Camera& camera);
 
 }  // namespace odosplat

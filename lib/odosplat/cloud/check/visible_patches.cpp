@@ -15,7 +15,8 @@ namespace {
 constexpr int pixels = patch_side * patch_side;
 constexpr double least_contrast = 3.0 / 255.0;
 constexpr double min_depth = 0.1;  // [m]
-// On a square grid discs close from 0.71 of the spacing on; the spacing is the mean distance to six neighbours.
+// On a square grid discs leave no gaps from a radius of 0.71 grid spacings on. `spacing`, the mean distance to six
+// neighbours, is larger than the grid spacing.
 constexpr double disc_reach = 1.0;
 constexpr int match_steps = 12;
 constexpr double match_ends = 0.01;  // [px]
@@ -38,7 +39,7 @@ Values values_of(const VisiblePatch& patch, const GrayImage& image) {
   return values;
 }
 
-// Mean 0, sum of squares 1; false without contrast.
+// Normalises to mean 0 and sum of squares 1; false if the contrast is below `least`.
 bool normalise(Values& values, double least) {
   double mean = 0.0;
   for (const float v : values) mean += v;
@@ -57,7 +58,7 @@ double correlation(const Values& a, const Values& b) {
   return sum;
 }
 
-// Where the patch's pixels are seen from the other camera; false if its plane is not before both.
+// Projects the patch's pixels into the other camera; false if its plane is not in front of both cameras.
 bool project_patch(const VisiblePatch& patch, const Camera& camera, const SE3& T_other_image, Places& places) {
   const Eigen::Matrix3d R = T_other_image.rotation_matrix();
   const Eigen::Vector3d& t = T_other_image.translation();
@@ -127,7 +128,7 @@ std::optional<double> patch_difference(const VisiblePatch& patch, const GrayImag
   if (!project_patch(patch, camera, T_other_image, places)) return std::nullopt;
   if (!values_at(places, Eigen::Vector2f::Zero(), other, there)) return std::nullopt;
   Values here = values_of(patch, image);
-  // Without contrast there the two have nothing in common.
+  // Without contrast in the other image the two count as unrelated.
   if (!normalise(here, 0.0) || !normalise(there, 0.25 * least_contrast)) return 1.0;
   return 1.0 - correlation(here, there);
 }
@@ -153,7 +154,7 @@ std::optional<PatchMatch> match_patch(const VisiblePatch& patch, const GrayImage
     if (!normalise(there, 0.0)) return std::nullopt;
     const bool found = correlation(here, there) >= least_correlation;
     if (step == match_steps && !found) return std::nullopt;
-    // Gradients of the grey values over their contrast; their means go with the brightness.
+    // Gradients of the grey values divided by their contrast. Their mean is removed, since brightness is free.
     for (std::size_t axis = 0; axis < 2; ++axis) {
       Eigen::Vector2f half = Eigen::Vector2f::Zero();
       half[static_cast<Eigen::Index>(axis)] = 0.5F;
@@ -173,7 +174,7 @@ std::optional<PatchMatch> match_patch(const VisiblePatch& patch, const GrayImage
       information += g * g.transpose();
       right += g * static_cast<double>(here[k] - there[k]);
     }
-    // Along an edge nothing is known: the step stays across it.
+    // Along an edge the position is undetermined: damping restricts the step to the direction across it.
     const Eigen::Matrix2d damped = information + (1e-3 * information.trace() + 1e-12) * Eigen::Matrix2d::Identity();
     const Eigen::Vector2d change = damped.inverse() * right;
     const bool settled = change.norm() < match_ends;
@@ -181,7 +182,7 @@ std::optional<PatchMatch> match_patch(const VisiblePatch& patch, const GrayImage
       if (!found) return std::nullopt;
       break;
     }
-    // Longer steps than a pixel leave the range in which gradients mean something.
+    // At most one pixel per step, since gradients are valid only near the current position.
     shift += (change / std::max(1.0, change.norm())).cast<float>();
     if (shift.norm() > static_cast<float>(most_shift)) return std::nullopt;
   }

@@ -13,7 +13,7 @@
 namespace odosplat {
 namespace {
 
-/// The lens on the plane z = 1, as Undistorter has it.
+/// The lens distortion on the plane z = 1, with the same model as Undistorter.
 class Lens {
  public:
   explicit Lens(const std::vector<double>& d)
@@ -28,7 +28,7 @@ class Lens {
 
   Eigen::Matrix2d slope(const Eigen::Vector2d& p) const {
     const double r2 = p.squaredNorm();
-    const double growth = 2.0 * (k1_ + r2 * (2.0 * k2_ + r2 * 3.0 * k3_));  // d radial / d r^2, twice
+    const double growth = 2.0 * (k1_ + r2 * (2.0 * k2_ + r2 * 3.0 * k3_));  // 2 d radial / d r^2
     Eigen::Matrix2d J = radial(r2) * Eigen::Matrix2d::Identity() + growth * p * p.transpose();
     J(0, 0) += 2.0 * p1_ * p.y() + 6.0 * p2_ * p.x();
     J(0, 1) += 2.0 * p1_ * p.x() + 2.0 * p2_ * p.y();
@@ -47,7 +47,8 @@ class Lens {
   double k3_;
 };
 
-/// Whether the map keeps its full rank from one ray to another: else they lie on two sides of a fold.
+/// Whether the distortion's Jacobian has a positive determinant everywhere between two rays. Otherwise the rays lie on
+/// different sides of a fold.
 bool same_side(const Lens& lens, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   constexpr int samples = 8;
   for (int i = 1; i <= samples; ++i) {
@@ -57,8 +58,8 @@ bool same_side(const Lens& lens, const Eigen::Vector2d& from, const Eigen::Vecto
   return true;
 }
 
-/// The share of the way from the axis to `target` (both on the distorted plane z = 1) up to which every place shows one
-/// ray: the ray is followed outward by Newton's method, and ends where the map's slope no longer has full rank.
+/// The fraction of the way from the axis to `target` (both on the distorted plane z = 1) up to which every point shows
+/// exactly one ray. The ray is followed outward by Newton's method until the Jacobian's determinant is not positive.
 double reach(const Lens& lens, const Eigen::Vector2d& target) {
   constexpr int steps = 64;
   constexpr int iterations = 20;
@@ -94,7 +95,8 @@ void check_distortion(const Camera& camera, const std::vector<double>& distortio
     throw InputError("distortion", "is not finite");
   }
   const double radius = fold_radius(camera, distortion);
-  // Of wide lenses with one coefficient it is the corners that no ray reaches: they are left out (Undistorter).
+  // The model of a wide lens with one coefficient often folds before the image's corners. That is accepted: Undistorter
+  // leaves such corners out.
   const double to_sides =
       std::max({camera.cx, camera.width - 1.0 - camera.cx, camera.cy, camera.height - 1.0 - camera.cy});
   if (radius >= to_sides) return;
@@ -110,7 +112,7 @@ double fold_radius(const Camera& camera, const std::vector<double>& distortion) 
   double radius = std::numeric_limits<double>::infinity();
   if (std::all_of(distortion.begin(), distortion.end(), [](double d) { return d == 0.0; })) return radius;
   const Lens lens(distortion);
-  constexpr int places = 16;  // a side of the border; the corners are among them
+  constexpr int places = 16;  // samples per side of the border, including the corners
   const Eigen::Vector2d last(camera.width - 1.0, camera.height - 1.0);
   const Eigen::Vector2d centre(camera.cx, camera.cy);
   for (int k = 0; k < places; ++k) {

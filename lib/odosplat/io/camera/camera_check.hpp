@@ -8,27 +8,28 @@
 
 namespace odosplat {
 
-/// Bounds of what a camera file can mean, for `camera.yaml` and for every other layout's camera.
+/// Limits for plausible values of a camera, for `camera.yaml` and for the cameras of all other layouts.
 namespace camera_limits {
 constexpr double least_depth_scale = 1e-3;  // [units/m]
 constexpr double most_depth_scale = 1e9;
 constexpr double most_fps = 1e6;
-// Responses are near 1 (linear) to 2.6; beyond these, all radiances are stored as two or three grey levels.
+// Real responses range from about 1 (linear) to 2.6; beyond these limits all radiances fall on two or three grey
+// levels.
 constexpr double least_gamma = 0.1;
 constexpr double most_gamma = 10.0;
 }  // namespace camera_limits
 
-/// Throws InputError(key, fault) for a camera that no lens has: what Camera::check refuses, a distortion that is not
-/// finite or not one-to-one over the image but for its corners (fold_radius), a gamma, depth_scale or fps (where they
-/// are said) out of range.
+/// Throws InputError(key, fault) for an implausible camera: one that Camera::check refuses, a distortion that is not
+/// finite or not one-to-one over the image except for its corners (fold_radius), or a given gamma, depth_scale or fps
+/// out of range.
 void check_camera(const CameraFile& file);
 
 /// The same, with the camera's file before the key: InputError(name, key, fault).
 void check_camera(const std::string& name, const CameraFile& file);
 
-/// How far from the principal point the lens model stops being one-to-one, over the lines from there to the border of
-/// the (distorted) image [px]; infinite if it is one-to-one all over the image. There each pixel shows one ray; where
-/// the model folds, pixels beyond show none and those before show two.
+/// The distance from the principal point [px] at which the lens model stops being one-to-one: the minimum over lines
+/// from there to the border of the distorted image; infinite if it is one-to-one in the whole image. Within that radius
+/// each pixel shows one ray. Where the model folds, pixels beyond the fold show no ray and those just inside show two.
 double fold_radius(const Camera& camera, const std::vector<double>& distortion);
 
 }  // namespace odosplat

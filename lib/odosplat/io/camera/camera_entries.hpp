@@ -9,16 +9,16 @@
 
 namespace odosplat {
 
-/// What a camera.yaml says. Keys: width height fx fy cx cy (all needed), depth_scale, distortion [k1 k2 p1 p2 k3], fps,
-/// gamma, vignette.
+/// The contents of a camera.yaml. Keys: width height fx fy cx cy (all required), depth_scale, distortion
+/// [k1 k2 p1 p2 k3], fps, gamma, vignette.
 struct CameraFile {
   Camera camera;    // fy > 0 always; pixel centres at integers
   int fy_sign = 1;  // -1: the file has a negative fy, so poses, and points of the same data set, are reflected
-  double depth_scale = 1000.0;     // units of a 16-bit depth image a metre
-  bool has_depth_scale = false;    // false: the file does not say, the layout's own default counts
+  double depth_scale = 1000.0;     // units of a 16-bit depth image per metre
+  bool has_depth_scale = false;    // false: not given by the file, the layout's default applies
   std::vector<double> distortion;  // k1 k2 p1 p2 k3 (OpenCV's order; 4 values: k3 = 0); empty: none
-  double fps = 0.0;                // [1/s], 0: not said
-  double gamma = 0.0;              // of the response, stored = radiance^(1 / gamma); 0: not said
+  double fps = 0.0;                // [1/s], 0: not given
+  double gamma = 0.0;              // of the response, stored = radiance^(1 / gamma); 0: not given
   std::string vignette;            // image file, relative to the camera file (read_vignette); empty: none
 };
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t max_size = 1 << 20;
 
-// Text of the file for an error of one line: quoted keys and the parser's messages may hold line ends.
+// Text for a one-line error: quoted keys and the parser's messages may contain line ends.
 std::string shown(std::string text) {
   text.resize(std::min<std::size_t>(text.size(), 80));
   for (char& c : text) c = static_cast<unsigned char>(c) < 0x20 ? '?' : c;
@@ -33,7 +33,7 @@ class Reader {
   Reader(std::string name, const std::string& text) : name_(std::move(name)) {
     if (text.size() > max_size) throw InputError(name_, "is too long for a camera file");
     try {
-      // Load() would take the first of several documents, and say nothing of the others.
+      // Not Load(), which reads the first of several documents and ignores the others without an error.
       const std::vector<YAML::Node> documents = YAML::LoadAll(text);
       if (documents.size() > 1) {
         fail("content", "holds " + std::to_string(documents.size()) + " YAML documents (`---`), must hold one");
@@ -91,7 +91,7 @@ class Reader {
     return value;
   }
 
-  // The parser keeps both entries and gives out one of them.
+  // The parser accepts duplicate keys: it keeps both entries and returns one of them.
   void refuse_duplicates() const {
     std::map<std::string, int> lines;
     for (const auto& entry : root_) {
@@ -108,14 +108,14 @@ class Reader {
   YAML::Node root_;
 };
 
-// The shortest text that reads back as the same bits.
+// The shortest text that is read back as the same bits.
 std::string shortest(double value) {
   char buffer[32];
   const std::to_chars_result result = std::to_chars(buffer, buffer + sizeof(buffer), value);
   return {buffer, result.ptr};
 }
 
-// YAML's double quotes.
+// The text as a double-quoted YAML string.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {

@@ -8,15 +8,15 @@
 
 namespace odosplat {
 
-/// Throws InputError(file, key, fault): a key missing, unknown or given twice, not a number, not finite, several
-/// YAML documents, another number of distortion coefficients than 4 or 5, and what check_camera refuses; reading from a
-/// path: a vignette that is not there.
+/// Throws InputError(file, key, fault): a key missing, unknown or given twice, a value that is not a number or not
+/// finite, several YAML documents, a number of distortion coefficients other than 4 or 5, and everything that
+/// check_camera refuses; when reading from a path also if the vignette's file does not exist.
 CameraFile read_camera_file(const std::string& path);
 /// The same from text; `name` stands for the file in errors.
 CameraFile parse_camera_file(const std::string& name, const std::string& text);
 
-/// Writes width .. cy, depth_scale and what else is set; numbers so that reading gives the same bits.
-/// InputError if the path cannot be written.
+/// Writes width .. cy, depth_scale and the other values that are set; numbers are written so that reading restores the
+/// same bits. Throws InputError if the path cannot be written.
 void write_camera_file(const std::string& path, const CameraFile& file);
 
 }  // namespace odosplat

@@ -30,8 +30,8 @@ bool same_size(const CameraFile& a, const CameraFile& b) {
   return a.camera.width == b.camera.width && a.camera.height == b.camera.height;
 }
 
-// The largest difference of a parameter [px]. Coefficients of distortion count by what they move at 45 degrees off the
-// axis, which is more than what most images hold.
+// The largest difference of a parameter [px]. Distortion coefficients are weighted by the shift that they cause at 45
+// degrees off the axis, which is beyond the field of view of most images.
 double largest_difference(const Parameters& a, const Parameters& b) {
   double largest = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) {

@@ -15,11 +15,12 @@ struct ImageCamera {
   const CameraFile* camera = nullptr;
 };
 
-/// The one camera of all images, of which there is at least one. Phones and structure from motion may state intrinsics
-/// per image that differ by fractions of a pixel: if no parameter of any image is half a pixel or more from the median
-/// (coefficients of distortion: times the focal length), the medians are the camera, and one warning tells the largest
-/// difference. `file` stands for the data set in messages. InputError(file, image, fault) if an image differs by more,
-/// or in size: those are several cameras. `way_out` ends that error.
+/// The single camera of all images, of which there must be at least one. Phones and structure from motion may give
+/// intrinsics per image that differ by fractions of a pixel: if no parameter of any image is half a pixel or more from
+/// the median (distortion coefficients: multiplied by the focal length), the camera of the medians is returned, and one
+/// warning gives the largest difference. `file` stands for the data set in messages. Throws InputError(file, image,
+/// fault) if an image differs by more, or in size, because the images then have several cameras. `way_out` is advice
+/// for the user, appended to that error.
 CameraFile common_camera(const std::string& file, const std::vector<ImageCamera>& images, const std::string& way_out);
 
 }  // namespace odosplat

@@ -25,17 +25,17 @@ namespace {
 
 constexpr float saturated = 254.5F / 255.0F;
 constexpr double time_tolerance = 0.01;  // [s]
-// Over the median. From the shortest to the longest, cameras reach 1e5.
+// Limits relative to the median. The ratio of a camera's longest to its shortest exposure is up to 1e5.
 constexpr double least_exposure = 1e-6;
 constexpr double most_exposure = 1e6;
 
-// Numbers of every line that is no comment.
+// The numbers of a line that is not a comment.
 struct NumberLine {
   std::size_t number;  // from 1
   std::vector<double> values;
 };
 
-// first_is_any_word: DSO's ids need not be numbers; 0 stands for one that is none.
+// first_is_any_word: the first word need not be a number (DSO's ids); one that is not is stored as 0.
 std::vector<NumberLine> number_lines(const std::string& name, const std::string& text, bool first_is_any_word) {
   std::vector<NumberLine> lines;
   std::istringstream in(text);
@@ -57,7 +57,7 @@ std::vector<NumberLine> number_lines(const std::string& name, const std::string&
   return lines;
 }
 
-// Whether the first line is one of DSO's with its exposure: id, time, exposure.
+// Whether the first line has DSO's form with an exposure: id, time, exposure.
 bool lists_exposures(const std::string& name, const std::string& text) {
   std::istringstream in(text);
   LineReader reader(name, in);

@@ -10,7 +10,7 @@
 
 namespace odosplat {
 
-/// Which columns of a point cloud hold what, from 0.
+/// Indices of the columns (from 0) with the points, colours and normals of a point cloud.
 struct CloudColumns {
   using Triple = std::array<std::size_t, 3>;
 
@@ -20,7 +20,7 @@ struct CloudColumns {
 };
 
 /// Finds x y z, red green blue (diffuse_red .., r g b) and nx ny nz (normal_x .., normalx ..) among the names of a
-/// file's columns, in letters of either size; the first of two equal names counts. An empty name is no column.
+/// file's columns, in upper or lower case; of two equal names the first is used. Empty names are ignored.
 CloudColumns find_cloud_columns(const std::vector<std::string>& names);
 
 }  // namespace odosplat

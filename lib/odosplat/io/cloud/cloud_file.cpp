@@ -16,7 +16,7 @@ namespace {
 using Names = std::array<const char*, 3>;
 using Vectors = std::vector<Eigen::Vector3f>;
 
-// Makes a cloud of batches: colours and normals are all or nothing.
+// Collects batches into a cloud, which has colours and normals for all points or for none.
 class Collector {
  public:
   explicit Collector(const std::string& name) : name_(name) {}

@@ -14,7 +14,7 @@ namespace {
 
 struct PointFormat {
   std::size_t length;  // shortest record [bytes]
-  std::size_t color;   // where red, green, blue start in it; 0: none
+  std::size_t color;   // offset of red, green, blue in it; 0: none
 };
 
 constexpr std::array<PointFormat, 11> formats{
@@ -23,7 +23,7 @@ constexpr std::array<PointFormat, 11> formats{
 class LasSource : public CloudSource {
  public:
   explicit LasSource(CloudInput input) : input_(std::move(input)) {
-    std::array<char, 375> header{};  // of version 1.4; earlier ones are shorter
+    std::array<char, 375> header{};  // size in version 1.4; earlier headers are shorter
     input_.in->read(header.data(), header.size());
     const auto held = static_cast<std::size_t>(input_.in->gcount());
     input_.in->clear();
@@ -54,7 +54,7 @@ class LasSource : public CloudSource {
       if (!std::isfinite(offset_[axis])) fail("an offset is not finite");
     }
     const auto header_size = load_little<std::uint16_t>(h + 94);
-    // What may stand behind the points: waveforms since 1.3, long records since 1.4.
+    // Data that may follow the points: waveforms since version 1.3, extended variable length records since 1.4.
     end_ = input_.size;
     for (const std::size_t at : {std::size_t{227}, std::size_t{235}}) {
       if (minor < (at == 227 ? 3 : 4) || header_size < at + 8) continue;
@@ -125,17 +125,17 @@ class LasSource : public CloudSource {
     return load_little<std::int32_t>(record + 4 * axis) * scale_[axis] + offset_[axis];
   }
 
-  // Deleted without being taken out of the file.
+  // Withheld points are deleted ones that remain in the file.
   bool is_withheld(const char* record) const { return (record[15] & (is_extended_ ? 0x04 : 0x80)) != 0; }
 
   CloudInput input_;
   PointFormat format_{};
   bool is_extended_ = false;
-  std::size_t length_ = 0;  // of a record [bytes]
+  std::size_t length_ = 0;  // length of a record [bytes]
   std::uint64_t left_ = 0;
   std::uint64_t promised_ = 0;
-  std::uint64_t more_ = 0;  // records that would fit behind those
-  std::uint64_t end_ = 0;   // of what may be points [bytes]
+  std::uint64_t more_ = 0;  // number of further records for which the file has room
+  std::uint64_t end_ = 0;   // end of the part of the file that may contain points [bytes]
   std::array<double, 3> scale_{};
   std::array<double, 3> offset_{};
   std::vector<char> block_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 // PCD: "The PCD (Point Cloud Data) file format", documentation of the Point Cloud Library, versions 0.5 to 0.7. Binary
-// values are little endian; compressed files hold field after field, not point after point.
+// values are little endian; compressed files store all values of one field after those of another, not point by point.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -113,7 +113,7 @@ class PcdSource : public CloudSource {
   }
 
  private:
-  // Values of one point, of the wanted fields in their order; a packed colour as its bits.
+  // Values of one point in the order of the wanted fields; a packed colour as an integer with its bits.
   using Values = std::array<double, 9>;
 
   void want(const CloudColumns::Triple& columns) {
@@ -175,7 +175,7 @@ class PcdSource : public CloudSource {
     return *value;
   }
 
-  // A float's bits are the colour; not a number is black, as writers of organised clouds leave it in holes.
+  // In a float field the bits are the colour. NaN is read as black: writers of organised clouds leave it in holes.
   double packed_of(std::string_view word, const PcdField& field) const {
     if (field.type == 'F') {
       float value = 0.0F;
@@ -203,7 +203,7 @@ class PcdSource : public CloudSource {
     }
   }
 
-  // One pass finds where each wanted field starts; from there each is read by a stream of its own.
+  // One pass finds where each wanted field starts; each field is then read by its own stream from there.
   void open_streams() {
     std::array<char, 8> sizes{};
     if (bytes_left() < sizes.size()) too_short(0);
@@ -223,7 +223,7 @@ class PcdSource : public CloudSource {
       for (std::size_t i = 0; i < fields_.size(); ++i) {
         if (fields_[i].offset == field.offset) streams_[i] = stream;
       }
-      // points * stride is at most `whole`, below 2^32.
+      // No overflow: points * stride is at most `whole`, which is below 2^32.
       stream.read(nullptr, static_cast<std::size_t>(header_.points) * field.count * field.size);
     }
   }
@@ -249,7 +249,7 @@ class PcdSource : public CloudSource {
   bool has_normals_ = false;
   std::optional<ColorRange> range_;
   std::uint64_t left_ = 0;
-  std::uint64_t whole_ = 0;  // compressed: bytes that the points take when they are unpacked
+  std::uint64_t whole_ = 0;  // compressed files: size of the decompressed points [bytes]
   std::string line_;
   std::vector<std::string_view> words_;
   std::vector<char> block_;

@@ -14,7 +14,7 @@ namespace {
 
 using Triple = CloudColumns::Triple;
 
-// Of the scalar properties, in their order: those are the columns of a block.
+// Names of the scalar properties in their order, which are the columns of a block.
 std::vector<std::string> scalar_names(const PlyHeaderElement& element) {
   std::vector<std::string> names;
   for (const PlyHeaderProperty& p : element.properties) {
@@ -95,7 +95,7 @@ class PlySource : public CloudSource {
   std::optional<ColorRange> color_range() const override { return range_; }
   const char* row_word() const override { return "vertex"; }
 
-  // The points are whole; elements behind them (faces) tell whether the file is.
+  // All points have been read; the elements after them (faces) are read to find out whether the file is complete.
   std::string left_over() override {
     try {
       for (auto element = behind_; element != header_.elements.end(); ++element) {

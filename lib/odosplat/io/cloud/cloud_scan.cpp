@@ -63,12 +63,12 @@ Opener opener_of(const CloudInput& input) {
   throw InputError(input.name, "is no point cloud of a known format (PLY, PCD, LAS, or text as .xyz .csv .txt)");
 }
 
-constexpr double farthest = 1e15;  // [m] beyond, squares of distances come near the end of single precision
+constexpr double farthest = 1e15;  // [m] beyond, squares of distances approach the range of single precision
 
-// Colours of real numbers may overshoot a little.
+// With a tolerance, because colours stored as floats may exceed the full value slightly.
 bool exceeds(float value, float full) { return value > full * 1.001F; }
 
-// Reads on until it is known what a full colour is; 0: the file has no colours.
+// Reads rows until the value of full colour intensity is determined; 0 if the file has no colours.
 float full_color(CloudSource& source, const ColorRange& range) {
   float largest = 0.0F;
   float full = range.low;
@@ -85,7 +85,7 @@ float full_color(CloudSource& source, const ColorRange& range) {
   return range.black_is_none && largest <= 0.0F ? 0.0F : full;
 }
 
-// Rows as files have them to points as everyone wants them.
+// Converts rows as stored in files to finite points with colours in 0..1 and unit normals.
 class Cleaner {
  public:
   Cleaner(const std::string& name, const char* row_word, float full)

@@ -19,12 +19,12 @@ struct CloudInput {
   std::unique_ptr<std::istream> in;
   std::uint64_t size = 0;
 
-  /// Reads n bytes; InputError if the file does not give them.
+  /// Reads n bytes; throws InputError if the file has fewer.
   void take(char* to, std::size_t n) const;
 };
 
-/// Points as the file has them: not finite ones too, colours in the file's own range, normals of any length. colors and
-/// normals are empty or as long as points.
+/// Points as stored in the file: including points that are not finite, colours in the file's own range, normals of any
+/// length. colors and normals are empty or as long as points.
 struct CloudRows {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3f> colors;
@@ -33,27 +33,28 @@ struct CloudRows {
   void clear();
 };
 
-/// What a full colour may be: of 1, 255 and 65535 the first in low..high that no value of the file exceeds.
+/// The possible values for full colour intensity: the smallest of 1, 255 and 65535 within low..high that no value of
+/// the file exceeds.
 struct ColorRange {
   float low = 255.0F;
   float high = 255.0F;
-  bool black_is_none = false;  // a file whose colours are all zero has none
+  bool black_is_none = false;  // true: a file whose colours are all zero counts as one without colours
 };
 
-/// One format's reader; scan_cloud makes the best of what it gives.
+/// Interface of the readers of cloud formats. scan_cloud filters and converts the rows that they return.
 class CloudSource {
  public:
   static constexpr std::size_t batch_rows = std::size_t{1} << 16;
 
   virtual ~CloudSource() = default;
-  /// Replaces `rows` by the next at most batch_rows; false at the end. InputError as scan_cloud says.
+  /// Replaces `rows` by the next rows, at most batch_rows; false at the end. Throws InputError as scan_cloud does.
   virtual bool next(CloudRows& rows) = 0;
-  /// Nothing if the file has no colours.
+  /// nullopt if the file has no colours.
   virtual std::optional<ColorRange> color_range() const = 0;
-  /// What errors call a row.
+  /// The word for a row in errors.
   virtual const char* row_word() const { return "point"; }
-  /// Behind the last row: what the file holds beyond what its header promises, as "the header promises 5 points, ...";
-  /// empty if it holds no more. May read on.
+  /// To be called after the last row: a text about rows beyond those that the header declares ("the header promises 5
+  /// points, ..."); empty if there are none. May read from the file.
   virtual std::string left_over() { return {}; }
 };
 

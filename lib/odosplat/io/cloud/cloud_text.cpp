@@ -66,7 +66,7 @@ class TextSource : public CloudSource {
 
   Eigen::Vector3f color() const {
     const auto value = triple<float>(*layout_.color);
-    // Without names, columns of more than 8 bits may be anything.
+    // Without column names, values above 255 need not be colours.
     const float most = layout_.has_names ? 65535.0F : 255.0F;
     if (!(value.minCoeff() >= 0.0F && value.maxCoeff() <= most)) {
       lines_.fail(std::string("its colour is no colour of ") + (layout_.has_names ? "0..65535, " : "") +

@@ -24,7 +24,7 @@ char separator_of(std::string_view line) {
   return line.find(',') != std::string_view::npos ? ',' : ' ';
 }
 
-// Without quotes and the marks of a comment.
+// The words of a line without quotes and comment marks.
 Names names_of(std::string_view line) {
   line.remove_prefix(std::min(line.find_first_not_of("#/ \t\r"), line.size()));
   Words words;
@@ -100,7 +100,7 @@ class LayoutFinder {
     return static_cast<std::uint64_t>(value);
   }
 
-  // Values that are no numbers are the reader's to complain about.
+  // Values that are not numbers are reported later, by the reader.
   void keep(const Words& words) {
     std::vector<double> row;
     for (const std::string_view word : words) row.push_back(number_of(word).value_or(std::nan("")));
@@ -131,7 +131,7 @@ class LayoutFinder {
     refuse("has " + std::to_string(layout.columns) + " columns without names");
   }
 
-  // Unit vectors with a negative part are normals; without one they may as well be pure colours.
+  // Unit vectors with negative components are normals; without any negative component they could also be pure colours.
   bool holds_normals() const {
     bool are_unit = true;
     bool any_negative = false;

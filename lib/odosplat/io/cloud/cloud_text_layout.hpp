@@ -19,19 +19,19 @@ struct TextLayout {
 
   char separator = ' ';
   std::size_t columns = 3;
-  std::size_t lines_before = 0;  // the first point
+  std::size_t lines_before = 0;  // number of lines before the first point
   Triple point{0, 1, 2};
   bool has_names = false;              // the file names its columns
-  std::optional<std::uint64_t> count;  // of points, from a first line that is one number
+  std::optional<std::uint64_t> count;  // number of points, if the first line is a single number
   std::optional<Triple> color;
   std::optional<Triple> normal;
 };
 
-/// Starts with # or // (blanks before them do not count), or holds nothing.
+/// True if the line starts with # or // (after optional blanks), or is empty.
 bool is_comment(std::string_view line);
 
-/// Reads as far as the first 100 points to find the layout; the rules stand at scan_cloud. Without any point the layout
-/// is that of x y z. InputError(name, place, fault) where the columns cannot be told.
+/// Determines the layout from the first 100 points at most, by the rules given at scan_cloud. Without any point it is
+/// that of x y z. Throws InputError(name, place, fault) if the meaning of the columns cannot be determined.
 TextLayout find_text_layout(const std::string& name, std::istream& in);
 
 }  // namespace odosplat

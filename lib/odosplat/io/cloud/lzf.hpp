@@ -11,17 +11,21 @@
 
 namespace odosplat {
 
-/// Decompresses LZF (Lehmann's format, as PCD files use it) piece by piece. A copy goes on from the same place, so that
-/// places of one stream can be read side by side in little memory: references reach back 8192 bytes at most.
-/// Format: a control byte c < 32 is followed by c + 1 literal bytes; else c >> 5 = 1..6 says that 3..8 bytes are
-/// repeated, 7 that the next byte + 9 are; they start ((c & 31) << 8 | last byte) + 1 bytes back.
+/// Decompresses LZF (Lehmann's format, used in PCD files) piece by piece. A copy of the object continues from the same
+/// position independently, so that several positions of one stream can be read in parallel; this takes little memory,
+/// because references reach back 8192 bytes at most.
+/// Format, for a control byte c:
+///   c < 32           c + 1 literal bytes follow
+///   c >> 5 = 1..6    (c >> 5) + 2 bytes are repeated (3..8)
+///   c >> 5 = 7       the next byte + 9 bytes are repeated
+/// Repeated bytes start ((c & 31) << 8 | d) + 1 bytes back, where d is the byte after c (and after the length byte).
 class LzfStream {
  public:
   /// Bytes [begin, end) of `in`, which must outlive this; `name` stands for the file in errors.
   LzfStream(std::string name, std::istream& in, std::uint64_t begin, std::uint64_t end);
 
-  /// The next n decompressed bytes; to == nullptr: they are passed over. InputError if the stream ends before or refers
-  /// to what was before its start.
+  /// Reads the next n decompressed bytes; to == nullptr: skips them. Throws InputError if the stream ends earlier or
+  /// refers to bytes before its start.
   void read(char* to, std::size_t n);
 
  private:
@@ -33,10 +37,10 @@ class LzfStream {
 
   std::string name_;
   std::istream* in_;
-  std::uint64_t at_;  // of the first byte that is not in buffer_
+  std::uint64_t at_;  // position of the first byte after those in buffer_
   std::uint64_t end_;
   std::vector<char> buffer_;
-  std::size_t used_ = 0;  // of buffer_
+  std::size_t used_ = 0;  // bytes of buffer_ already consumed
   std::array<char, window_size> window_{};
   std::uint64_t made_ = 0;  // bytes decompressed
   std::size_t literal_ = 0;

@@ -15,7 +15,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-constexpr std::size_t max_stride = std::size_t{1} << 20;  // [bytes] no sensible row is longer
+constexpr std::size_t max_stride = std::size_t{1} << 20;  // [bytes] far above the length of any real row
 
 class HeaderReader {
  public:

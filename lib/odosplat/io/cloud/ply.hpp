@@ -11,7 +11,7 @@
 
 namespace odosplat {
 
-/// Values of one property, in the type the file has.
+/// Values of one property, in the type of the file.
 using PlyColumn = std::variant<std::vector<std::int8_t>, std::vector<std::uint8_t>, std::vector<std::int16_t>,
                                std::vector<std::uint16_t>, std::vector<std::int32_t>, std::vector<std::uint32_t>,
                                std::vector<float>, std::vector<double>>;
@@ -21,27 +21,28 @@ struct PlyProperty {
   PlyColumn values;
 };
 
-/// One element of a PLY file ("vertex"): a table of scalar properties. List properties are read past, not kept.
+/// One element of a PLY file ("vertex"): a table of scalar properties. List properties are skipped.
 struct PlyElement {
   std::string name;
   std::size_t count = 0;  // rows
   std::vector<PlyProperty> properties;
 
   bool has(const std::string& property) const { return find(property) != nullptr; }
-  /// nullptr if there is none. A name in letters of another size counts where none is equal.
+  /// nullptr if there is none. A name that differs only in upper and lower case is used if no name is equal.
   const PlyColumn* find(const std::string& property) const;
-  /// Appends a column; its length must be `count`, or sets `count` if it is the first. std::invalid_argument otherwise.
+  /// Appends a column. The first column sets `count`; the length of any other must equal it, else
+  /// std::invalid_argument.
   void add(const std::string& property, PlyColumn values);
 };
 
 /// A PLY file in memory (Turk 1994: ascii, binary_little_endian, binary_big_endian, version 1.0).
 struct Ply {
   std::string file;                   // name for errors
-  std::vector<std::string> comments;  // the text behind "comment " and "obj_info "
+  std::vector<std::string> comments;  // the text after "comment " and "obj_info "
   std::vector<PlyElement> elements;
 
   bool has(const std::string& element) const;
-  /// InputError naming the file if there is none of that name.
+  /// Throws InputError naming the file if there is no element of that name.
   const PlyElement& element(const std::string& element_name) const;
 
   /// A property as vector<T>, converted by static_cast. InputError naming file, element and property if missing.
@@ -64,16 +65,16 @@ struct Ply {
   const PlyColumn& values_of(const std::string& element_name, const std::string& property) const;
 };
 
-/// Reads a whole file. Never allocates more than the file's size justifies. Throws InputError: not a PLY file, a header
-/// line that is not understood, a header that promises more rows than the file holds (says how many it holds), an ascii
-/// value that does not fit its type. NaN and infinite values are kept: what they mean is the caller's business. What
-/// a file holds behind its last element is not read; where a row would fit, one warning says how much that is.
+/// Reads a whole file. The allocated memory is bounded by the file's size. Throws InputError: not a PLY file, a header
+/// line that is not understood, a header that declares more rows than the file has (the error gives the number that it
+/// has), an ascii value that does not fit its type. NaN and infinite values are kept for the caller to interpret. Data
+/// after the last element is not read; if it is large enough for another row, one warning gives its amount.
 Ply read_ply(const std::string& path);
 /// The same from memory; `name` stands for the file in errors.
 Ply parse_ply(const std::string& name, const std::string& bytes);
 
-/// Writes binary_little_endian, beside the path and renamed. std::invalid_argument if columns of an element differ in
-/// length or a name holds blanks; InputError if the path cannot be written.
+/// Writes binary_little_endian through AtomicFile. Throws std::invalid_argument if columns of an element differ in
+/// length or a name contains blanks, InputError if the path cannot be written.
 void write_ply(const std::string& path, const Ply& ply);
 
 }  // namespace odosplat

@@ -104,7 +104,7 @@ std::size_t PlyBody::spread(std::vector<T>& values, std::size_t first, std::size
   return sizeof(T);
 }
 
-// Rows of one size: their number is checked against the file before any memory is taken.
+// For rows of fixed size. Their number is checked against the file before memory is allocated.
 void PlyBody::read_fixed_rows(std::uint64_t wanted) {
   std::size_t stride = 0;
   for (const PlyHeaderProperty& p : promised_->properties) stride += ply_size(p.type);
@@ -188,7 +188,7 @@ void PlyBody::append(std::vector<T>& values) {
     }
     values.push_back(static_cast<T>(value));
   } else {
-    // A finite double beyond float's range has no float: infinity stands for it, as binary writers do.
+    // A finite double beyond the range of float becomes infinity, as binary writers store it.
     const auto largest = static_cast<double>(std::numeric_limits<T>::max());
     if (std::isfinite(value) && std::abs(value) > largest) {
       values.push_back(std::copysign(std::numeric_limits<T>::infinity(), static_cast<T>(value > 0 ? 1 : -1)));

@@ -14,21 +14,21 @@
 
 namespace odosplat {
 
-/// Reads what stands behind a PLY header, some rows at a time. Elements must be begun and read to their end in the
-/// order of the header, which must outlive this. Never takes more memory than the bytes left in the file justify.
-/// InputError as read_ply says.
+/// Reads the data after a PLY header, some rows at a time. Elements must be begun and read to their end in the order of
+/// the header, which must outlive this object. The allocated memory is bounded by the bytes left in the file. Throws
+/// InputError as read_ply does.
 class PlyBody {
  public:
-  /// in: behind "end_header", with bytes_left to come.
+  /// in: positioned after "end_header", with bytes_left bytes until its end.
   PlyBody(std::string name, std::istream& in, const PlyHeader& header, std::uint64_t bytes_left);
 
   void begin(const PlyHeaderElement& promised);
-  /// The next rows of the element, at most max_rows; count 0 at its end. Rows without properties take no bytes, so that
-  /// nothing proves their number: they count as none.
+  /// The next rows of the element, at most max_rows; count 0 at its end. Rows without properties take no bytes, so
+  /// their declared number cannot be checked; such an element is read as having no rows.
   PlyElement next(std::uint64_t max_rows);
 
-  /// Behind the last element: what the file holds beyond it, as "the header promises 5 rows of vertex, the file goes on
-  /// for ..."; empty if that is no more than blank lines, or fewer bytes than a row (padding).
+  /// To be called after the last element: a text about data beyond it ("the header promises 5 rows of vertex, the file
+  /// goes on for ..."); empty if there are only blank lines, or fewer bytes than one row (padding).
   std::string left_over();
 
  private:

@@ -30,7 +30,7 @@ constexpr std::array<TypeNames, 8> types{{{"char", "int8", 1},
                                           {"double", "float64", 8}}};
 static_assert(types.size() == std::variant_size_v<PlyColumn>);
 
-// No sensible header is longer; binary rubbish without line ends is given up early.
+// Far above any real header; they stop the reading of binary data without line ends early.
 constexpr std::size_t max_line = 1 << 14;
 constexpr std::size_t max_lines = 1 << 14;
 

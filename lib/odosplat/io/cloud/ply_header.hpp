@@ -16,23 +16,23 @@ enum class PlyFormat { ascii, binary_little_endian, binary_big_endian };
 /// Index of a type's vector in PlyColumn.
 using PlyType = std::size_t;
 
-/// Bytes of a value.
+/// Size of a value [bytes].
 std::size_t ply_size(PlyType type);
-/// Name as our writer spells it ("float", "uchar").
+/// Name of the type as write_ply writes it ("float", "uchar").
 const char* ply_type_name(PlyType type);
-/// A column of that type without rows.
+/// An empty column of that type.
 PlyColumn make_ply_column(PlyType type);
 
 struct PlyHeaderProperty {
   std::string name;
   PlyType type = 0;
   bool is_list = false;
-  PlyType length_type = 0;  // of a list's length
+  PlyType length_type = 0;  // type of a list's length
 };
 
 struct PlyHeaderElement {
   std::string name;
-  std::uint64_t rows = 0;  // as promised
+  std::uint64_t rows = 0;  // number declared in the header
   std::vector<PlyHeaderProperty> properties;
 };
 
@@ -43,7 +43,8 @@ struct PlyHeader {
   std::size_t lines = 0;
 };
 
-/// Reads up to and with "end_header". `name` stands for the file in errors. InputError for anything not understood.
+/// Reads up to and including "end_header". `name` stands for the file in errors. Throws InputError for any line that is
+/// not understood.
 PlyHeader read_ply_header(const std::string& name, std::istream& in);
 
 }  // namespace odosplat

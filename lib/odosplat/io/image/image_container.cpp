@@ -16,7 +16,8 @@ namespace {
 constexpr std::string_view png_signature("\x89PNG\r\n\x1a\n", 8);
 constexpr std::string_view jpeg_signature("\xff\xd8\xff", 3);
 constexpr int max_side = 32768;
-// Of a progressive JPEG: every scan decodes the whole image anew, in 20 bytes of the file; encoders write about 10.
+// Limit for the scans of a progressive JPEG: a scan of 20 bytes makes the decoder process the whole image again, so a
+// small file could take very long. Encoders write about 10 scans.
 constexpr int max_scans = 500;
 
 std::uint32_t big_endian(std::string_view bytes, std::size_t at, std::size_t n) {
@@ -37,15 +38,15 @@ void check_size(const std::string& name, const ImageContainer& image) {
 struct Chunk {
   std::string_view type;
   std::string_view data;
-  std::string_view whole;  // with length and checksum
+  std::string_view whole;  // including length and checksum
 
-  bool is_intact() const {  // the checksum is of type and data
+  bool is_intact() const {  // the checksum covers type and data
     const auto* type_and_data = reinterpret_cast<const Bytef*>(type.data());
     return crc32_z(0, type_and_data, type.size() + data.size()) == big_endian(whole, whole.size() - 4, 4);
   }
 };
 
-// at: offset of a chunk whose length field and checksum lie within bytes, or an empty type if they do not.
+// The chunk at offset `at`; its type is empty if the chunk does not lie completely within bytes.
 Chunk chunk_at(std::string_view bytes, std::size_t at) {
   constexpr std::size_t frame = 12;  // length, type, checksum
   if (bytes.size() < frame || at > bytes.size() - frame) return {};
@@ -83,7 +84,8 @@ bool is_frame_header(unsigned marker) {
   return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }
 
-// Offset of the next marker's 0xFF behind entropy-coded data: stuffed zeros, restarts and fill bytes are data.
+// Offset of the 0xFF of the next marker after entropy-coded data. Stuffed zeros, restart markers and fill bytes count
+// as data.
 std::size_t end_of_scan(const std::string& name, std::string_view bytes, std::size_t at) {
   for (; at + 1 < bytes.size(); ++at) {
     if (bytes[at] != '\xff') continue;
@@ -115,7 +117,8 @@ ImageContainer inspect_jpeg(const std::string& name, std::string_view bytes) {
     if (length < 2) damaged(name);
     if (at + 2 + length > bytes.size()) truncated(name);
     if (is_frame_header(marker)) {
-      // A second header, or one behind the pixels, would let the decoder see another size than the one judged here.
+      // With a second frame header, or one after the pixels, the decoder could use another size than the one checked
+      // here.
       if (length < 8 || has_header || scans > 0) damaged(name);
       has_header = true;
       image.bits = static_cast<unsigned char>(bytes[at + 4]);
@@ -147,7 +150,7 @@ std::string bare_png(const std::string& bytes) {
   std::string bare(png_signature);
   for (std::size_t at = png_signature.size();;) {
     const Chunk chunk = chunk_at(view, at);
-    // Upper case in the first letter of a type: needed for the pixels.
+    // An upper-case first letter of the type marks a critical chunk, which is needed to decode the pixels.
     if ((chunk.type[0] & 0x20) == 0) bare += chunk.whole;
     if (chunk.type == "IEND") return bare;
     at += chunk.whole.size();

@@ -26,7 +26,7 @@ cv::Mat decode(const std::string& name, const std::string& bytes, const ImageCon
   const std::string bare = container.is_png ? bare_png(bytes) : std::string();
   const std::string& source = container.is_png ? bare : bytes;
   if (source.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) throw InputError(name, "is too large");
-  // imdecode reads only; its interface wants a Mat.
+  // imdecode does not change the data, but its interface needs a non-const Mat.
   const cv::Mat data(1, static_cast<int>(source.size()), CV_8U, const_cast<char*>(source.data()));
   cv::Mat image;
   try {
@@ -46,7 +46,7 @@ void write_png(const std::string& path, const cv::Mat& image) {
 }
 
 unsigned char to_byte(float value) {
-  if (!(value > 0.0F)) return 0;  // NaN as well
+  if (!(value > 0.0F)) return 0;  // also for NaN
   return static_cast<unsigned char>(std::lround(255.0F * std::min(value, 1.0F)));
 }
 

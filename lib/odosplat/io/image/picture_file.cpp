@@ -32,7 +32,7 @@ std::string encoded(const std::string& format, const cv::Mat3b& rgb) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// The compressed rows of a PNG: the contents of its IDAT chunks, which PDF reads as they are.
+/// The compressed rows of a PNG: the contents of its IDAT chunks, which a PDF can contain unchanged.
 std::string compressed_rows(std::string_view png) {
   std::string rows;
   for (std::size_t at = 8; at + 12 <= png.size();) {
@@ -44,7 +44,7 @@ std::string compressed_rows(std::string_view png) {
   return rows;
 }
 
-/// Numbered objects of a PDF and the table that says where each begins.
+/// The numbered objects of a PDF and the table of their offsets.
 class Pdf {
  public:
   void add(const std::string& body) {
@@ -68,7 +68,7 @@ class Pdf {
   }
 
  private:
-  // Bytes beyond ASCII in the second line tell programs that copy files that this one is no text.
+  // Non-ASCII bytes in the second line mark the file as binary for programs that transfer files.
   std::string text_ = "%PDF-1.4\n%\xe2\xe3\xcf\xd3\n";
   std::vector<std::size_t> starts_;
 };

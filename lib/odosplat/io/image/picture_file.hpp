@@ -7,17 +7,17 @@
 
 namespace odosplat {
 
-/// Pictures for people, in the format that the name ends in, in any case:
+/// Pictures for reports and figures. The format follows from the name's extension, in upper or lower case:
 ///   .png; .jpg or .jpeg (quality 95);
 ///   .pdf: one page of the picture's size at 96 pixels per inch, the pixels without loss;
 ///   .svg: the same, the picture embedded as PNG.
-/// Both of the latter hold pixels, not lines.
+/// PDF and SVG contain pixels, not vector graphics.
 
-/// InputError with the endings that can be written if the name has another; to be called before work is done.
+/// Throws InputError, listing the supported extensions, if the name has another one. To be called before any work.
 void check_picture_name(const std::string& path);
 
-/// channel order R, G, B. Written beside and renamed. InputError as above, for an empty picture, and if the path cannot
-/// be written.
+/// Channel order R, G, B. Written through AtomicFile. Throws InputError as above, for an empty picture, and if the path
+/// cannot be written.
 void write_picture(const std::string& path, const cv::Mat3b& rgb);
 
 }  // namespace odosplat

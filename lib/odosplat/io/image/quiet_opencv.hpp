@@ -6,8 +6,8 @@
 
 namespace odosplat {
 
-/// While it lives, OpenCV does not tell its backends' failures on standard error: the InputError says all that the user
-/// needs.
+/// While an object of this class exists, OpenCV does not print failures of its backends on standard error: the
+/// InputError tells the user what is wrong.
 class QuietOpenCv {
  public:
   QuietOpenCv() : level_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}

@@ -13,14 +13,14 @@ namespace {
 constexpr std::uint64_t bytes_a_pixel = 24;  // double x, y; uint64 point
 constexpr std::uint64_t bytes_a_track = 8;   // uint32 image, pixel
 
-// Takes values off the front of a file. `place` says in errors where it is.
+// Reads values from the start of the remaining bytes. `place` is the current entry, for errors.
 class Bytes {
  public:
   Bytes(std::string name, std::string_view rest) : name_(std::move(name)), rest_(rest) {
     count_ = integer<std::uint64_t>();
   }
 
-  /// Entries that the file promises in its first eight bytes.
+  /// Number of entries, from the first eight bytes of the file.
   std::uint64_t count() const { return count_; }
   void set_place(const char* what, std::uint64_t index) {
     place_ = std::string(what) + " " + std::to_string(index + 1) + " of " + std::to_string(count_);
@@ -43,7 +43,7 @@ class Bytes {
     for (double& value : values) value = real();
   }
 
-  /// Up to the next zero byte, which is taken too.
+  /// Reads up to the next zero byte, which is consumed too.
   std::string text() {
     const std::size_t end = rest_.find('\0');
     if (end == std::string_view::npos) fail_end();
@@ -51,14 +51,14 @@ class Bytes {
     return std::string(from.substr(0, end));
   }
 
-  /// To be called behind the last entry: a model holds nothing else.
+  /// To be called after the last entry: throws InputError if the file goes on.
   void expect_end() const {
     if (rest_.empty()) return;
     throw InputError(name_, "promises " + std::to_string(count_) + " entries, and goes on for " +
                                 std::to_string(rest_.size()) + " bytes behind them");
   }
 
-  /// Reads past a list: its length, then so many entries.
+  /// Skips a list: its length, then that many entries.
   void skip_list(std::uint64_t bytes_an_entry) {
     const auto n = integer<std::uint64_t>();
     if (n > rest_.size() / bytes_an_entry) fail_end();

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double corner_to_centre = 0.5;  // [px]
 
-// In the order of COLMAP's numbers.
+// Index: COLMAP's number of the model.
 constexpr std::array<const char*, 12> model_names{"SIMPLE_PINHOLE",
                                                   "PINHOLE",
                                                   "SIMPLE_RADIAL",
@@ -33,7 +33,7 @@ constexpr std::array<const char*, 12> model_names{"SIMPLE_PINHOLE",
 
 struct ReadableModel {
   const char* name;
-  std::size_t focal_lengths;  // 1 or 2, then cx cy, then the distortion
+  std::size_t focal_lengths;  // 1 or 2; the parameters are these, then cx cy, then the distortion
   std::size_t distortion;
 };
 constexpr std::array<ReadableModel, 5> readable{
@@ -125,7 +125,7 @@ void sort_colmap_images(const std::string& name, std::vector<ColmapImage>& image
 void add_colmap_point(const std::string& name, const std::string& place, const double (&xyz)[3], const double (&rgb)[3],
                       PointCloud& cloud) {
   const Eigen::Vector3d p(xyz[0], xyz[1], xyz[2]);
-  // Beyond this, float squares of distances overflow.
+  // Limit below which squares of distances do not overflow in single precision.
   if (!(p.cwiseAbs().maxCoeff() < 1e15) || !p.allFinite()) throw InputError(name, place, "its place is out of range");
   const Eigen::Vector3d color(rgb[0], rgb[1], rgb[2]);
   if (!(color.minCoeff() >= 0.0 && color.maxCoeff() <= 255.0)) {

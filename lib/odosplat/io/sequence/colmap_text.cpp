@@ -30,13 +30,13 @@ void take_numbers(const std::string& name, std::size_t line, std::string_view& r
   for (double& value : values) value = word_number(name, line, take_word(rest));
 }
 
-// A value of a pose, which may be nan or inf where an image has none.
+// A value of a pose, which is nan or inf for an image without a pose.
 double pose_number(const std::string& name, std::size_t line, std::string_view word) {
   const std::optional<double> value = number_of(word);
   return value && !std::isfinite(*value) ? *value : word_number(name, line, word);
 }
 
-// Observed pixels: `x y point` each, the point a whole number (-1: none).
+// Whether the line is a list of observed pixels: `x y point` each, the point a whole number (-1: none).
 bool holds_pixels(std::string_view line) {
   while (!trimmed(line).empty()) {
     if (!number_of(take_word(line)) || !number_of(take_word(line))) return false;
@@ -53,7 +53,7 @@ ColmapCameras parse_colmap_cameras_text(const std::string& name, const std::stri
   for_each_line(name, text, [&](std::size_t line, std::string_view rest) {
     const std::uint32_t id = word_id(name, line, take_word(rest), "a camera");
     const std::string model(take_word(rest));
-    colmap_parameter_count(name, place_of(line), model);  // refuses models that are not read
+    colmap_parameter_count(name, place_of(line), model);  // throws for models that are not supported
     double size[2];
     take_numbers(name, line, rest, size);
     std::vector<double> parameters;
@@ -67,7 +67,7 @@ ColmapCameras parse_colmap_cameras_text(const std::string& name, const std::stri
   return cameras;
 }
 
-// Two lines an image; the second, the observed pixels, may be empty.
+// Two lines per image; the second, with the observed pixels, may be empty.
 std::vector<ColmapImage> parse_colmap_images_text(const std::string& name, const std::string& text) {
   std::vector<ColmapImage> images;
   std::string_view lines = without_byte_order_mark(name, text);

@@ -25,7 +25,7 @@ struct ModelFiles {
   std::string file(const char* name) const { return join(folder, name + ending); }
 };
 
-// Empty folder: there is no model. Where both forms lie side by side COLMAP itself prefers the binary one.
+// An empty folder in the result: there is no model. If both forms exist, the binary one is taken, as in COLMAP.
 ModelFiles find_model(const std::string& path) {
   for (const char* below : {"", "sparse", "sparse/0"}) {
     for (const char* ending : {".bin", ".txt"}) {
@@ -46,7 +46,7 @@ std::string find_image_folder(const std::string& path, const std::string& first_
   throw InputError(path, "image " + first_image, "is in none of the folders " + tried);
 }
 
-// The one camera of all images; InputError if there are several, unless that camera will not count.
+// The one camera of all images. Throws InputError if there are several, unless a camera file overrides it.
 CameraFile camera_of(const ModelFiles& model, const std::vector<ColmapImage>& images, bool overridden) {
   const ColmapCameras cameras = read_colmap_cameras(model.file("cameras"));
   std::vector<ImageCamera> stated;

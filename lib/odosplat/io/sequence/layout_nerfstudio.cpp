@@ -25,7 +25,7 @@ std::string transforms_of(const std::string& path) {
   return is_transforms(path) ? path : join(path, "transforms.json");
 }
 
-// Synthetic sets leave the extension out.
+// The image that a frame names. Synthetic data sets omit the extension.
 std::string image_file(const std::string& folder, const std::string& written) {
   const std::string file = fs::path(listed_file(folder, written)).lexically_normal().string();
   if (is_image_name(file) || file_exists(file)) return file;
@@ -36,7 +36,7 @@ std::string image_file(const std::string& folder, const std::string& written) {
   return file + endings[0];
 }
 
-// The same for an image that must be there.
+// The same for a colour image. Throws InputError if a name without extension matches no file.
 std::string color_file(const std::string& folder, const TransformsFrame& frame) {
   const std::string file = image_file(folder, frame.color);
   if (!file_exists(file) && !is_image_name(frame.color)) {
@@ -73,9 +73,9 @@ SequenceIndex index_nerfstudio(const std::string& path, const SequenceOptions& o
   }
   camera.depth_scale = transforms.depth_scale;
   choose_camera(options, {folder}, camera, file, camera.depth_scale, index);
-  index.camera.has_depth_scale = true;  // the format states its default
+  index.camera.has_depth_scale = true;  // the format defines a default, so none has to be assumed
   fill_numbered(files, index);
-  std::size_t posed = 0;  // frames without a pose are not in the truth
+  std::size_t posed = 0;  // index in the truth, which has no entry for frames without a pose
   for (std::size_t i = 0; i < transforms.frames.size(); ++i) {
     const TransformsFrame& frame = transforms.frames[i];
     if (frame.time) index.frames[i].time = *frame.time;

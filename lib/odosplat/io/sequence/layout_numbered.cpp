@@ -31,7 +31,7 @@ std::vector<std::string> list_if_folder(const std::string& path) {
   return is_folder(path) ? list_folder(path) : std::vector<std::string>();
 }
 
-// "00012.jpg" to {12, path}, for the names that `wanted` accepts. Two files of one number: InputError.
+// "00012.jpg" to {12, path}, for the names that `wanted` accepts. Throws InputError if two files have the same number.
 template <typename Wanted>
 std::map<long long, std::string> numbered_images(const std::string& folder, Wanted wanted) {
   std::map<long long, std::string> images;
@@ -45,7 +45,7 @@ std::map<long long, std::string> numbered_images(const std::string& folder, Want
   return images;
 }
 
-// NAME of the one folder NAME-color; empty if there is none.
+// NAME of the only folder NAME-color; empty if there is none.
 std::string redwood_scene(const std::string& path) {
   const std::string ending = "-color";
   std::string scene;
@@ -57,7 +57,7 @@ std::string redwood_scene(const std::string& path) {
   return scene;
 }
 
-// The noise-free depth where a download holds several.
+// The folder of depth images; the noise-free one (NAME-depth-clean) if a download has several.
 std::string redwood_depth_folder(const std::string& path, const std::string& scene) {
   std::string first;
   for (const std::string& name : list_folder(path)) {
@@ -72,7 +72,7 @@ bool is_frame_color(const std::string& name) {
   return name.starts_with("frame-") && name.find(".color.") != std::string::npos && is_image_name(name);
 }
 
-// The folder itself, or its one seq-NN; empty: neither.
+// The folder itself, or its only seq-NN; empty if it is neither.
 std::string sevenscenes_folder(const std::string& path) {
   std::string sequences;
   std::string found;

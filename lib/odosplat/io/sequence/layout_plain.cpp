@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Images without any list, and videos: a camera file says the rest.
+// Folders of images without any list, and videos; a camera file gives the camera and the rate.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -28,7 +28,8 @@ std::vector<std::string> image_names(const std::string& path) {
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
-// Images of phones are stored lying and shown upright; the camera file must be of the images as they are shown.
+// Phones store videos in landscape format with a rotation for display. The images are read rotated, so the camera file
+// must describe the rotated images.
 void check_turned(const std::string& path, const VideoReader& video, const SequenceIndex& index) {
   if (video.quarters() == 0) return;
   const Camera& camera = index.camera.camera;
@@ -40,14 +41,14 @@ void check_turned(const std::string& path, const VideoReader& video, const Seque
                                index.camera_source + " is for " + size_text(camera.width, camera.height) +
                                ": calibrate with the images as they are shown");
   }
-  // Nothing else would tell.
+  // In these cases the image size does not show whether the camera file is for rotated images.
   if (video.quarters() == 2 || camera.width == camera.height) {
     log_warning(path + ": its images are turned by " + degrees + ", as they are to be shown; " + index.camera_source +
                 " must be of the turned images");
   }
 }
 
-// The stamps say how fast the images came; a rate in the camera file that differs is reported.
+// The frame rate follows from the stamps; a different rate in the camera file is reported and dropped.
 void drop_declared_rate(const std::string& path, SequenceIndex& index) {
   const double declared = std::exchange(index.camera.fps, 0.0);
   if (declared <= 0.0 || index.frames.size() < 2) return;

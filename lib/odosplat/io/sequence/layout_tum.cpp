@@ -34,7 +34,7 @@ std::vector<double> times_of(const std::vector<ListedImage>& list) {
   return times;
 }
 
-// Images as rgb.txt lists them, and depth.txt, if it is there.
+// Frames from rgb.txt, and from depth.txt if it exists.
 std::vector<FrameFiles> frames_of_lists(const std::string& path) {
   const std::string color_list = join(path, "rgb.txt");
   const std::vector<ListedImage> colors = parse_image_list(color_list, read_file(color_list));
@@ -56,7 +56,7 @@ std::vector<FrameFiles> frames_of_lists(const std::string& path) {
   return frames;
 }
 
-// The pairs that TUM's associate.py makes of both lists, which some programs ask for instead of them.
+// Frames from associations.txt: the pairs that TUM's associate.py makes from both lists.
 std::vector<FrameFiles> frames_of_pairs(const std::string& path) {
   const std::string list = join(path, "associations.txt");
   const std::vector<ListedPair> pairs = parse_pair_list(list, read_file(list));
@@ -87,11 +87,11 @@ bool has_pairs_with_times(const std::string& path) {
     const std::vector<ListedPair> pairs = parse_pair_list(list, read_file(list));
     return std::any_of(pairs.begin(), pairs.end(), [](const ListedPair& pair) { return pair.has_times(); });
   } catch (const InputError&) {
-    return false;  // the reader of associations.txt names the fault
+    return false;  // the reader of associations.txt reports the fault
   }
 }
 
-// Files with that ending; the archive has one. Empty: none.
+// The only file with that ending; empty if there is none.
 std::string only_file_ending(const std::string& folder, const std::string& ending) {
   std::string found;
   for (const std::string& name : list_folder(folder)) {
@@ -108,12 +108,12 @@ std::map<long long, SE3> icl_poses(const std::string& folder) {
   const std::string sim = only_file_ending(folder, ".gt.sim");
   std::map<long long, SE3> poses;
   if (sim.empty()) return poses;
-  // The same poses without their numbers, which start at 1.
+  // gt.sim has the same poses without their numbers, which start at 1.
   for (const auto& [number, pose] : read_numbered_poses(sim)) poses[number + 1] = pose;
   return poses;
 }
 
-// Poses and images that never meet are mostly stamps in two units.
+// Warns if no image gets a pose, which usually means that the stamps of images and poses are in different units.
 void warn_if_unposed(const std::string& truth, const SequenceIndex& index) {
   if (index.truth.empty()) return;
   NamedStamps images{"the images", {}};
@@ -142,7 +142,7 @@ SequenceIndex index_tum(const std::string& path, const SequenceOptions& options)
   const PoseFile poses = read_pose_file(truth);
   index.truth = poses.poses;
   for (FrameFiles& frame : index.frames) {
-    // A stamp for which the file says that there is no pose is not interpolated over.
+    // No interpolation at a stamp for which the file explicitly has an invalid pose.
     if (has_time(poses.times_without_pose, frame.time)) continue;
     frame.T_world_camera = pose_at(index.truth, frame.time);
     if (!frame.depth.empty()) frame.T_world_depth = pose_at(index.truth, frame.depth_time);

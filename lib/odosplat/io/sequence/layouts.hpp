@@ -12,12 +12,12 @@ namespace odosplat {
 
 struct Layout {
   const char* name;
-  const char* signature;  // what tells it, for errors
+  const char* signature;  // the files by which it is recognised, for errors
   bool (*matches)(const std::string& path);
   SequenceIndex (*index)(const std::string& path, const SequenceOptions& options);
 };
 
-/// In the order in which detection tries them.
+/// All layouts, in the order in which detection tries them.
 const std::vector<Layout>& layouts();
 
 bool is_tum(const std::string& path);
@@ -27,7 +27,7 @@ bool is_sevenscenes(const std::string& path);
 bool is_replica(const std::string& path);
 bool is_colmap(const std::string& path);
 bool is_nerfstudio(const std::string& path);
-/// True for a file NAME.json, which is no video.
+/// True for a file NAME.json.
 bool is_transforms(const std::string& path);
 bool is_image_folder(const std::string& path);
 bool is_video(const std::string& path);

@@ -23,7 +23,7 @@ std::string listed_path(const std::string& file) {
   return path;
 }
 
-// A list that there is none of must not stay from an earlier run.
+// Removes a list that is not wanted, because an earlier run may have left one.
 void write_or_remove(const std::string& path, bool wanted, const std::string& text) {
   std::error_code ignored;
   if (wanted) {

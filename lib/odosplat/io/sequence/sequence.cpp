@@ -48,7 +48,7 @@ const Layout& detect(const std::string& path) {
   throw InputError(path, "no known layout; known are " + known);
 }
 
-// F T F with F = diag(1, -1, 1): the same motion seen with y turned round, in the camera and in the world.
+// F T F with F = diag(1, -1, 1): the same motion with the y axis of camera and world inverted.
 SE3 reflected(const SE3& T) {
   const Eigen::Quaterniond& q = T.rotation();
   const Eigen::Vector3d& t = T.translation();
@@ -85,11 +85,11 @@ struct Sequence::Data {
   std::int64_t max_image_pixels = ImageLimit::default_max_pixels;
   Undistorter undistorter;
   PhotometricCorrection photometric;
-  std::vector<double> exposures;  // a frame, median 1; empty: not known
+  std::vector<double> exposures;  // per frame, median 1; empty: not known
 
   mutable std::once_flag depth_scale_said;
 
-  // Once, and only where depth is read: others need no scale.
+  // Logged once, and only when depth is read, because nothing else needs the scale.
   void say_assumed_depth_scale() const {
     if (index.camera.has_depth_scale) return;
     std::call_once(depth_scale_said, [this] {
@@ -105,7 +105,7 @@ struct Sequence::Data {
     return index.frames[i];
   }
   double exposure(std::size_t i) const { return exposures.empty() ? 1.0 : exposures.at(i); }
-  /// Empty: none.
+  /// Path of the vignette; empty if there is none.
   std::string vignette_file() const {
     if (index.camera.vignette.empty()) return {};
     return listed_file(std::filesystem::path(index.camera_source).parent_path().string(), index.camera.vignette);
@@ -133,10 +133,10 @@ struct Sequence::Data {
     require_camera_size(files.depth, size);
   }
 
-  /// One image that is damaged or of another size is that frame's fault; if none of the first has the camera's size,
-  /// it is the camera's.
+  /// Throws if none of the first images has the camera's size, since the camera is then wrong. A single damaged image
+  /// or one of another size is accepted here and reported when that frame is read.
   void require_size_of_images() const {
-    constexpr std::size_t most = 32;  // that are looked at
+    constexpr std::size_t most = 32;  // number of images checked
     std::optional<InputError> first_fault;
     for (std::size_t i = 0; i < std::min(most, index.frames.size()); ++i) {
       const std::string& file = index.frames[i].color;
@@ -190,7 +190,7 @@ struct Sequence::Data {
       wants_depth = wants_depth || !f.depth.empty();
       any_depth = any_depth || (!f.depth.empty() && file_exists(f.depth));
     }
-    // Like a damaged image, one that is not there is its frame's fault.
+    // A missing image, like a damaged one, is an error only when its frame is read; if all are missing, throw here.
     if (first_fault && missing == index.frames.size()) throw *first_fault;
     if (first_fault) {
       log_warning(name + ": " + std::to_string(missing) + " of " + std::to_string(index.frames.size()) +
@@ -231,19 +231,20 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
     log_warning(path + ": its images are " + std::to_string(1.0 / listed_fps) +
                 " s apart (median): their stamps look like " + unit + " where seconds are expected");
   }
-  // Videos have no header of ours, and what the lens has done is undone at the camera's size.
+  // The camera's size is checked against the pixel limit too: videos have no image header to check, and undistortion
+  // allocates images of the camera's size.
   data->any_size().check(index.camera_source, data->camera_size());
   if (index.video) {
     data->require_camera_size(path, index.video->frame_size());
   } else {
     data->require_size_of_images();
   }
-  // Interpolation and gradients need a neighbor.
+  // Interpolation and gradients need a neighbouring pixel.
   if (const cv::Size size = data->camera_size(); size.width < smallest_side || size.height < smallest_side) {
     throw InputError(path, "images of " + size_text(size) + " are too small, must have " +
                                std::to_string(smallest_side) + " pixels each way at least");
   }
-  // Last: only now is the size that the camera file promises known to be true.
+  // Last, because only here has the size in the camera file been verified.
   data->undistorter = Undistorter(index.camera.camera, index.camera.distortion);
   data->read_photometric_calibration(path);
   return Sequence(std::move(data));

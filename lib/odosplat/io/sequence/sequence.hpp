@@ -20,53 +20,57 @@ namespace odosplat {
 /// A recorded sequence: images with times and, where the data set gives them, depth and true poses.
 ///
 /// Layouts (path: a folder, or a video file; formats as their authors publish them):
-///   tum          rgb.txt, or associations.txt whose ids are times (with a decimal point); camera.yaml; if there,
-///                depth.txt and groundtruth.txt. Depth belongs to the colour image of its pair, without pairs to the
-///                one nearest in time, at most 0.02 s away as in TUM's own tool, each depth image to one colour image.
-///                Pose of a colour image: of equal stamp; else between the two poses around it if those are at most 0.1
-///                s apart; else the nearest within 0.01 s; else none, and none where groundtruth.txt has a pose of that
-///                stamp that is not finite.
+///   tum          rgb.txt, or associations.txt whose ids are times (with a decimal point); camera.yaml; optionally
+///                depth.txt and groundtruth.txt. With associations.txt a colour image has the depth image of its pair;
+///                without, the one nearest in time, at most 0.02 s away as in TUM's own tool, and each depth image is
+///                used for one colour image only. Pose of a colour image: the one with an equal stamp; else
+///                interpolated between the two poses around it if these are at most 0.1 s apart; else the nearest
+///                within 0.01 s; else none. Also none if groundtruth.txt has a pose with that stamp that is not finite.
 ///   icl          associations.txt (ids, depth first), *.gt.freiburg or *.gt.sim: image k has the pose with id k.
-///                481.2 -480 319.5 239.5, 5000 a metre.
-///   redwood      *-color, *-depth*, *-traj.txt or *.log: image number k has pose k. 525 525 319.5 239.5, 1000 a metre.
-///   sevenscenes  frame-NNNNNN.{color.png|color.jpg,depth.png,pose.txt} in the folder or in its one seq-NN.
-///                585 585 320 240, 1000 a metre.
+///                fx fy cx cy: 481.2 -480 319.5 239.5; depth 5000 units per metre.
+///   redwood      *-color, *-depth*, *-traj.txt or *.log: image number k has pose k. fx fy cx cy: 525 525 319.5 239.5;
+///                depth 1000 units per metre.
+///   sevenscenes  frame-NNNNNN.{color.png|color.jpg,depth.png,pose.txt} in the folder or in its only seq-NN.
+///                fx fy cx cy: 585 585 320 240; depth 1000 units per metre.
 ///   replica      results/frameN.jpg, results/depthN.png, traj.txt; cam_params.json there or one folder above.
-///   colmap       a COLMAP model, cameras, images and points3D as .bin or .txt, in the folder, in sparse or in
-///   sparse/0;
-///                images in images, in the folder itself, or in images one or two folders above. Frames in the natural
-///                order of their names, frame k at k / fps. Camera models SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL,
-///                RADIAL, OPENCV. All images must have one camera (common_camera), unless a camera file is given. The
-///                world and its unit are the model's own: see sparse_points() and `odosplat align`.
-///   nerfstudio   transforms.json (or such a file by its own name): frames by `timestamp` [s] if they have it, else in
-///                the natural order of their names, frame k at k / fps; one camera, given by the file or by every frame
-///                (common_camera), OPENCV or simpler, unless a camera file is given; names may lack .png, .jpg or
-///                .jpeg; depth_file_path in millimetres or as depth_unit_scale_factor says. The world is that of the
-///                stored poses and of ply_file_path; applied_transform is not undone. Masks are not used.
+///   colmap       a COLMAP model (cameras, images and points3D as .bin or .txt) in the folder, in sparse or in
+///                sparse/0; images in the folder images, in the folder itself, or in images one or two folders above.
+///                Frames in the natural order of their names, frame k at k / fps. Camera models SIMPLE_PINHOLE,
+///                PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV. All images must have one camera (common_camera), unless a
+///                camera file is given. World frame and scale are the model's own: see sparse_points() and `odosplat
+///                align`.
+///   nerfstudio   transforms.json, or the path of a file of that format with another name: frames by `timestamp` [s] if
+///                they have it, else in the natural order of their names, frame k at k / fps; one camera, given by the
+///                file or by every frame (common_camera), OPENCV or simpler, unless a camera file is given; image names
+///                may lack .png, .jpg or .jpeg; depth_file_path in millimetres or as depth_unit_scale_factor says. The
+///                world is that of the stored poses and of ply_file_path; applied_transform is not undone. Masks are
+///                not used.
 ///   images       PNG and JPEG files in natural order (2 before 10), with a camera file. No poses, no depth.
-///   video        what FFmpeg decodes, with a camera file, turned as the video is to be shown (phones), at the stamps
-///                of the container; frame k of a bare stream at k / fps of the camera file. All frames are decoded once
-///                at opening.
-/// In every layout a pose that is not finite, or that is not there, is none: the frame is without pose, and one warning
-/// tells how many. Files whose names begin with a dot are not seen. Backslashes in a listed name are folders if only so
-/// there is such a file.
-/// A camera.yaml in the folder counts instead of a calibration named above. Where only frame numbers are known, time is
-/// number / fps (30 if the camera file does not say).
+///   video        a video that FFmpeg decodes, with a camera file, rotated as the container says that it is to be shown
+///                (phones), with the container's time stamps; frame k of a bare stream at k / fps of the camera file.
+///                All frames are decoded once at opening.
+/// In every layout a frame whose pose is missing or not finite has no pose, and one warning gives the number of such
+/// frames. Files whose names begin with a dot are ignored. Backslashes in a listed name are treated as folder
+/// separators if the file exists only under that reading.
+/// A camera.yaml in the folder replaces the calibrations given above. Where only frame numbers are known, time is
+/// number / fps (30 if the camera file has no fps).
 ///
 /// Lens distortion of the camera file is removed as images are read: colour bilinear, depth nearest, same size and
-/// focal lengths; what the lens has not seen is 0. Where fy is negative (ICL-NUIM) poses are reflected,
-/// T' = F T F with F = diag(1, -1, 1), so that they belong to camera(), whose fy is positive.
+/// focal lengths; pixels that the distorted image does not cover are 0. Where fy is negative (ICL-NUIM) poses are
+/// reflected, T' = F T F with F = diag(1, -1, 1), so that they belong to camera(), whose fy is positive.
 ///
 /// Photometric calibration is applied before that (PhotometricCorrection): vignette and gamma of the camera file, and
 /// exposure times of exposures.txt or DSO's times.txt in the sequence's folder, so that colours are those of a camera
-/// without vignetting and with the median exposure. A camera file with a vignette but no gamma is taken to store
-/// radiance itself (gamma 1). Without vignette and exposures nothing changes.
+/// without vignetting and with the median exposure. A camera file with a vignette but no gamma is taken to mean gamma 1
+/// (stored values are proportional to radiance). Without vignette and exposures nothing changes.
 ///
-/// Poses in a survey's frame, too far from the origin for single precision, are refused (require_near_origin).
+/// Poses too far from the origin for single precision, such as those in a survey frame, are refused
+/// (require_near_origin).
 ///
-/// Images are decoded when asked for and not kept, and only once their header says that they have the camera's size.
-/// Colour files that are listed must exist; missing depth or truth is no error. Errors: InputError naming the file.
-/// Copies share the data. Const calls are thread safe.
+/// Images are decoded on request and not kept, and only after a check that the size in their header is the camera's.
+/// Colour files that are listed but missing give one warning, and an error when they are read or if all are missing;
+/// missing depth or truth is not an error. Errors: InputError naming the file. Copies share the data. Const calls are
+/// thread safe.
 class Sequence {
  public:
   static Sequence open(const std::string& path, const SequenceOptions& options = {});
@@ -74,27 +78,28 @@ class Sequence {
   /// Last part of the path ("icl_office_kt3").
   const std::string& name() const;
   const std::string& layout() const;
-  /// Pinhole camera of the images as they are handed out.
+  /// Pinhole camera of the images that color(), gray() and depth() return.
   const Camera& camera() const;
   /// Sign of fy as the camera file or the layout declares it, 1 or -1.
   int fy_sign() const;
-  /// Units of the depth files a metre.
+  /// Units of the depth files per metre.
   double depth_scale() const;
-  /// All that is known of the camera, lens distortion of the files included; fy_sign is 1 since poses are reflected.
-  /// A vignette is named by a path that holds from the working directory.
+  /// All that is known of the camera, including the lens distortion of the image files; fy_sign is 1 because the poses
+  /// have been reflected. The path of a vignette is relative to the working directory or absolute.
   CameraFile camera_file() const;
-  /// Images a second: as the camera file says, else 1 / (median step of time).
+  /// Frames per second: from the camera file, else 1 / (median step of time).
   double fps() const;
 
   std::size_t size() const;
   double time(std::size_t i) const;  // [s]
-  /// The time as the list wrote it, else with 6 decimals.
+  /// The time as written in the list, else printed with 6 decimals.
   std::string time_text(std::size_t i) const;
   std::optional<SE3> T_world_camera(std::size_t i) const;
-  /// The same at the moment of the frame's depth image: sensors that take colour and depth in turn (TUM) stamp them up
-  /// to 20 ms apart, centimetres at the edge of a fast turn. Equal to T_world_camera(i) where there is one stamp only.
+  /// The same at the time of the frame's depth image: sensors that capture colour and depth alternately (TUM) have
+  /// stamps up to 20 ms apart, in which points can shift by centimetres during a fast turn. Equal to T_world_camera(i)
+  /// if there is only one stamp.
   std::optional<SE3> T_world_depth(std::size_t i) const;
-  /// Every pose that the data set gives, at its own rate, reflected like T_world_camera.
+  /// All poses of the data set, at their own rate, reflected like T_world_camera.
   const Trajectory& truth() const;
 
   /// True if the sequence's folder lists exposure times.
@@ -102,9 +107,9 @@ class Sequence {
   /// Exposure time of the frame over the median; 1 where it is not known.
   double exposure(std::size_t i) const;
 
-  /// True if the data set brings points of its own in the world of its poses (COLMAP's points3D, ply_file_path).
+  /// True if the data set has sparse points in the world of its poses (COLMAP's points3D, ply_file_path).
   bool has_sparse_points() const;
-  /// Those points, read when asked for. InputError if there are none, or the file is damaged.
+  /// Those points, read from the file at every call. InputError if there are none, or the file is damaged.
   PointCloud sparse_points() const;
 
   /// Path of the frame's colour file; empty in videos.
@@ -118,10 +123,10 @@ class Sequence {
   ColorImage color(std::size_t i) const;
   /// Luma of color(i).
   GrayImage gray(std::size_t i) const;
-  /// True if a depth image belongs to frame i; false for all if the folder holds none of the depth files.
+  /// True if frame i has a depth image; false for all frames if none of the listed depth files exists.
   bool has_depth(std::size_t i) const;
-  /// z [m], 0 = none; the values 0 and 65535 of a file are none. InputError if !has_depth(i), if the file is missing or
-  /// damaged, or if its size is not the colour image's.
+  /// z [m], 0 = no depth; the values 0 and 65535 of a file mean no depth. InputError if !has_depth(i), if the file is
+  /// missing or damaged, or if its size is not the colour image's.
   DepthImage depth(std::size_t i) const;
 
  private:

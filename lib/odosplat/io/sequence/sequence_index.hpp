@@ -15,31 +15,31 @@
 namespace odosplat {
 
 constexpr double default_fps = 30.0;
-constexpr double same_stamp = 1e-6;  // [s] stamps this near are one
+constexpr double same_stamp = 1e-6;  // [s] stamps that differ by no more than this are equal
 
-/// One frame of a sequence: where its files are.
+/// The files, time and pose of one frame of a sequence.
 struct FrameFiles {
   double time = 0.0;
   std::string time_text;  // empty: print with 6 decimals
   std::string color;      // full path; empty in videos
   std::string depth;      // full path; empty: none
   std::optional<SE3> T_world_camera;
-  // Where the camera was when the depth image was taken, if its own stamp says so; none: as T_world_camera.
+  // Pose at the time of the depth image if that has a stamp of its own; none: as T_world_camera.
   std::optional<SE3> T_world_depth;
   double depth_time = 0.0;      // the stamp of the depth image, if depth_time_text is set
-  std::string depth_time_text;  // the same as listed; empty: the colour image's
+  std::string depth_time_text;  // the same as written in the list; empty: the colour image's stamp applies
 };
 
-/// Points that a data set gives beside its poses, in the same world, and how their file is read.
+/// Sparse points that a data set provides in the world of its poses, and the function that reads their file.
 struct SparsePoints {
   std::string file;  // empty: none
   PointCloud (*read)(const std::string& path) = nullptr;
 };
 
-/// What a layout's reader finds. Poses are as stored.
+/// The result of a layout's reader. Poses are as stored, not reflected.
 struct SequenceIndex {
   CameraFile camera;
-  std::string camera_source;  // for errors: the camera file, or what calibration it is
+  std::string camera_source;  // for errors: the camera file or the name of the published calibration
   std::vector<FrameFiles> frames;
   Trajectory truth;
   SparsePoints sparse_points;

@@ -11,9 +11,9 @@ namespace odosplat {
 /// How a sequence is to be read.
 struct SequenceOptions {
   std::string layout;       // "" = detect, or: tum icl redwood sevenscenes replica colmap nerfstudio images video
-  std::string camera_file;  // camera.yaml that counts instead of the sequence's own and of the layout's calibration
-  bool as_stored = false;   // true: poses as the files have them even where fy is negative (for checking conventions)
-  std::int64_t max_image_pixels = ImageLimit::default_max_pixels;  // images of more are refused, undecoded
+  std::string camera_file;  // camera.yaml used instead of the sequence's own and of the layout's calibration
+  bool as_stored = false;   // true: poses are not reflected even if fy is negative (for checking conventions)
+  std::int64_t max_image_pixels = ImageLimit::default_max_pixels;  // larger images are refused before decoding
 
   /// Throws InputError for a layout that is not known, or a limit out of 1..2^30.
   void check() const;

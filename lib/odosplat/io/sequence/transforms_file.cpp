@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 
 constexpr double corner_to_centre = 0.5;  // [px]
 
-// The file, or a frame of it.
+// Reads values of the file's object or of a frame's, with the place for errors.
 class Reader {
  public:
   Reader(std::string name, std::string place) : name_(std::move(name)), place_(std::move(place)) {}
@@ -50,7 +50,7 @@ class Reader {
     return text;
   }
 
-  // Three rows of four, and a fourth that is not looked at; NaN stands for what the file has as null.
+  // Three rows of four; a fourth row is ignored. NaN where the file has null.
   std::vector<double> matrix(const Json& json, const char* key) const {
     const Json& rows = json[key];
     if (!rows.is_array() || (rows.size() != 3 && rows.size() != 4)) fail(key, "is not a matrix of 3 or 4 rows");
@@ -83,7 +83,7 @@ void refuse_other_models(const Reader& reader, const Json& json) {
   if (k4 && *k4 != 0.0) reader.fail("k4", "a fourth radial coefficient is not read");
 }
 
-// Sets what `json` says and leaves the rest.
+// Sets the values that `json` gives and leaves the others unchanged.
 void read_camera(const Reader& reader, const Json& json, TransformsCamera& camera) {
   refuse_other_models(reader, json);
   const auto take = [&](const char* key, std::optional<double>& value) {
@@ -113,7 +113,7 @@ double focal_length(const std::string& name, const char* key, double size, doubl
   return 0.5 * size / std::tan(0.5 * angle);
 }
 
-// x right, y up, z backward to x right, y down, z forward.
+// Converts camera axes from x right, y up, z backward to x right, y down, z forward.
 SE3 turned(const SE3& T_world_gl) {
   return T_world_gl * SE3(Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), Eigen::Vector3d::Zero());
 }

@@ -12,8 +12,8 @@
 
 namespace odosplat {
 
-/// Intrinsics as a transforms.json has them: lengths in pixels, the principal point counted from the corner of the
-/// first pixel. What the file does not say is not set.
+/// Intrinsics as stored in a transforms.json: lengths in pixels, the principal point measured from the corner of the
+/// first pixel. Values that the file does not give are not set.
 struct TransformsCamera {
   std::optional<double> width;
   std::optional<double> height;
@@ -29,14 +29,15 @@ struct TransformsCamera {
 
   /// True if the file gives the size of the images.
   bool has_size() const { return width && height; }
-  /// In our convention. `size` counts where the file gives none; fl_x counts before camera_angle_x; without fl_y and
-  /// camera_angle_y fy = fx; without cx, cy the middle of the image. InputError naming the file, key and fault.
+  /// The camera in this project's convention. `size` is used if the file gives no size; fl_x takes precedence over
+  /// camera_angle_x; without fl_y and camera_angle_y, fy = fx; without cx, cy the principal point is the middle of the
+  /// image. Throws InputError naming the file, key and fault.
   CameraFile camera(const std::string& name, const cv::Size& size) const;
 };
 
 struct TransformsFrame {
   std::string color;  // as written, relative to the file's folder
-  std::string depth;  // the same; empty: none
+  std::string depth;  // likewise; empty: none
   std::optional<SE3> T_world_camera;
   TransformsCamera camera;
   std::optional<double> time;  // [s] timestamp
@@ -45,27 +46,28 @@ struct TransformsFrame {
 /// A transforms.json as nerfstudio and instant-ngp use it.
 struct TransformsFile {
   std::vector<TransformsFrame> frames;  // in order of time, else in the natural order of `color`
-  double depth_scale = 1000.0;          // units of a depth image a metre (of the poses)
+  double depth_scale = 1000.0;          // units of a depth image per metre (per unit length of the poses)
   std::string points;                   // ply_file_path, relative to the file's folder; empty: none
 
-  /// The one camera of all frames (common_camera). `size` counts where the file gives none. InputError naming the file,
-  /// key and fault.
+  /// The one camera of all frames (common_camera). `size` is used if the file gives no size. Throws InputError naming
+  /// the file, key and fault.
   CameraFile camera(const std::string& name, const cv::Size& size) const;
 };
 
-/// Reads text; `name` stands for the file in errors. transform_matrix is camera to world with x right, y up, z backward
-/// (OpenGL); poses are returned for x right, y down, z forward. The world is the one of the stored poses, in which the
-/// points of ply_file_path are as well: applied_transform, which says how that world came from an older one, is held to
-/// be a matrix of numbers and not undone. Intrinsics of a frame count before those of the file, key by key.
-/// depth_unit_scale_factor is metres a unit of the depth images (0.001 if not said). A frame whose transform_matrix is
-/// missing, null, or holds null or a number that is not finite (parse_json_object) has no pose; one frame at least must
-/// have one.
-/// Files list their frames in any order (COLMAP's, shuffled): they are returned in the order in which they were taken,
-/// by `timestamp` (seconds) if the frames have it, else by the natural order of their names. D-NeRF's `time`, a phase
-/// in 0..1, is no stamp and not looked at.
-/// InputError(file, key or "frame N", fault): no JSON (with line and column), a key missing or of another kind, no
-/// rotation, a camera model that is not pinhole with radial and tangential distortion, a timestamp in some of the
-/// frames only or twice the same, names with control characters.
+/// Parses text; `name` stands for the file in errors.
+///   Poses: transform_matrix is camera to world with x right, y up, z backward (OpenGL); poses are returned for x
+///   right, y down, z forward. A frame whose transform_matrix is missing, null, or contains null or a number that is
+///   not finite (parse_json_object) has no pose; at least one frame must have one.
+///   World: that of the stored poses, which is also that of the points of ply_file_path. applied_transform, which
+///   describes how it was derived from an older world, is checked to be a matrix of numbers and is not undone.
+///   Intrinsics: those of a frame take precedence over those of the file, key by key.
+///   Depth: depth_unit_scale_factor is metres per unit of the depth images (default 0.001).
+///   Order: files list frames in any order (COLMAP's, shuffled). They are returned in the order in which they were
+///   taken: by `timestamp` (seconds) if the frames have it, else by the natural order of their names. D-NeRF's `time`,
+///   a phase in 0..1, is not a time stamp and is ignored.
+/// Throws InputError(file, key or "frame N", fault): not JSON (with line and column), a key missing or of a wrong type,
+/// a matrix that is not a rotation, a camera model other than pinhole with radial and tangential distortion, a
+/// timestamp in only some of the frames or repeated, names with control characters.
 TransformsFile parse_transforms(const std::string& name, const std::string& text);
 
 }  // namespace odosplat

@@ -7,8 +7,8 @@
 namespace odosplat {
 
 std::string join(const std::string& folder, const std::string& name);
-/// The file that a list names, relative to the list's folder. Backslashes are folders if only so there is such a file
-/// (lists made on Windows).
+/// The file that a list names, relative to the list's folder. Backslashes are taken as folder separators if the file
+/// exists only under that reading (lists made on Windows).
 std::string listed_file(const std::string& folder, const std::string& written);
 bool file_exists(const std::string& path);
 /// Lower-case extension with its dot (".png").

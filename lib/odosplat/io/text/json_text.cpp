@@ -19,15 +19,15 @@ using Json = nlohmann::json;
 constexpr std::string_view null_word = "null";
 
 struct Plain {
-  std::string text;                 // what is JSON
-  std::vector<std::size_t> longer;  // where in it a character stands that the file does not have
+  std::string text;                 // valid JSON in place of Python's numbers
+  std::vector<std::size_t> longer;  // positions of characters in it that the file does not have
 };
 
 bool is_word_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-// Numbers that JSON does not know, as null, filled up with blanks.
+// Replaces numbers that JSON does not allow by null, padded with blanks to their length where that is longer.
 Plain without_infinities(std::string_view text) {
   Plain plain;
   plain.text.reserve(text.size());
@@ -61,8 +61,8 @@ Plain without_infinities(std::string_view text) {
   return plain;
 }
 
-// "[json.exception...] parse error at line 1, column 2: syntax error while parsing value - unexpected ..." from its
-// last part on.
+// The last part of "[json.exception...] parse error at line 1, column 2: syntax error while parsing value -
+// unexpected ...".
 std::string reason_of(const std::string& message) {
   const std::size_t dash = message.find(" - ");
   const std::size_t colon = message.find(": ");
@@ -70,12 +70,12 @@ std::string reason_of(const std::string& message) {
                        : colon != std::string::npos ? message.substr(colon + 2)
                                                     : message;
   reason.resize(std::min<std::size_t>(reason.size(), 100));
-  // Bytes of other alphabets may have been cut in two.
+  // Non-ASCII characters are replaced, because the cut may have split one.
   for (char& c : reason) c = static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f ? '?' : c;
   return reason;
 }
 
-// The parser stopped behind byte `at` (from 1) of the plain text.
+// Throws the error of a parser that stopped after byte `at` (from 1) of the plain text.
 [[noreturn]] void fail_at(const std::string& name, const Plain& plain, std::size_t at, const std::string& message) {
   const std::size_t end = std::min(at > 0 ? at - 1 : 0, plain.text.size());
   const std::string_view before(plain.text.data(), end);

@@ -32,7 +32,8 @@ bool is_number(std::string_view word) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-// The first name of a pair: up to the ending of an image that a number follows, else one word.
+// The first name of a pair: up to the first word that ends in an image extension and is followed by a number and more;
+// else one word.
 std::string_view take_first_name(std::string_view& rest) {
   const std::string_view all = rest;
   while (!rest.empty()) {

@@ -17,8 +17,8 @@ struct ListedImage {
   std::size_t line = 0;   // from 1
 };
 
-/// Lines that start with # and empty lines are skipped; a name is the rest of the line and may hold blanks. Times must
-/// grow. InputError(name, "line N", fault) otherwise; a list without images is returned empty.
+/// Lines that start with # and empty lines are skipped; a name is the rest of the line and may contain blanks. Times
+/// must increase. Throws InputError(name, "line N", fault) otherwise. A list without images gives an empty result.
 std::vector<ListedImage> parse_image_list(const std::string& name, const std::string& text);
 
 /// A line "id depth id color" of associations.txt. An id is a frame number (ICL-NUIM) or a time in seconds (TUM's
@@ -32,12 +32,13 @@ struct ListedPair {
   std::string depth_path;
   std::size_t line = 0;
 
-  /// True if an id is written with a decimal point: times, not frame numbers.
+  /// True if an id is written with a decimal point, so that the ids are times and not frame numbers.
   bool has_times() const;
 };
 
-/// The depth image comes first, as ICL-NUIM's files have it, unless the first name holds "rgb" or "color". A name may
-/// hold blanks if it ends in .png, .jpg or .jpeg. Ids must grow. InputError(name, "line N", fault) otherwise.
+/// The depth image comes first, as in ICL-NUIM's files, unless the first name contains "rgb" or "color". A name may
+/// contain blanks if it ends in .png, .jpg or .jpeg. Ids must increase. Throws InputError(name, "line N", fault)
+/// otherwise.
 std::vector<ListedPair> parse_pair_list(const std::string& name, const std::string& text);
 
 /// Pairs of indices (a, b) of times at most `tolerance` [s] apart, each used once, nearest pairs first (ties: earlier

@@ -8,12 +8,12 @@
 
 namespace odosplat {
 
-/// Order of names as people number them: runs of digits compare as numbers of any length ("2.png" before "10.png"),
-/// all else byte by byte; names that differ in leading zeros only compare as text. A strict total order.
+/// Natural order of names: runs of digits compare as numbers of any length ("2.png" before "10.png"), everything else
+/// byte by byte; names that differ only in leading zeros compare as text. A strict total order.
 bool natural_less(std::string_view a, std::string_view b);
 
-/// Names in `folder` (files and folders), in natural order. InputError if it cannot be listed. Names that begin with a
-/// dot are left out: macOS lays a "._NAME" beside every NAME on drives of other systems and in archives.
+/// Names in `folder` (files and folders), in natural order. Throws InputError if it cannot be listed. Names that begin
+/// with a dot are left out: macOS adds a file "._NAME" for every NAME on drives of other systems and in archives.
 std::vector<std::string> list_folder(const std::string& folder);
 
 /// The last run of digits of a file name without its extension, -1 if there is none or it has more than 15 digits:

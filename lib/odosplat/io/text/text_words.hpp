@@ -9,40 +9,41 @@
 
 namespace odosplat {
 
-/// Text of blanks, words and lines, for the readers of lists. Blanks are space, tab and carriage return.
+/// Splitting text into lines and words, for the readers of lists. Blanks are space, tab and carriage return.
 
-/// The bytes with which some editors begin a text in UTF-8.
+/// UTF-8 byte-order mark, with which some editors start a file.
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// The text behind a byte-order mark of UTF-8, if it begins with one. InputError for one of UTF-16 or UTF-32: such a
-/// text would be read as rubbish.
+/// The text without a UTF-8 byte-order mark at its start. Throws InputError if the text starts with the byte-order mark
+/// of UTF-16 (either byte order) or little-endian UTF-32, which the readers cannot decode.
 std::string_view without_byte_order_mark(const std::string& name, std::string_view text);
 
-/// True if two words differ in the size of ASCII letters only.
+/// True if two words are equal when upper and lower case of ASCII letters are not distinguished.
 bool same_word(std::string_view a, std::string_view b);
 
 std::string_view trimmed(std::string_view text);
 
-/// Takes the first word off `rest`; empty if there is none. What is left has no blanks at its ends.
+/// Removes the first word from `rest` and returns it; empty if there is none. Afterwards `rest` has no blanks at its
+/// ends.
 std::string_view take_word(std::string_view& rest);
 
-/// Takes the first line off `rest`, without its line end.
+/// Removes the first line from `rest` and returns it without its line end.
 std::string_view take_line(std::string_view& rest);
 
-/// A word for an error of one line: at most 24 bytes in back quotes, control characters as ?.
+/// A word for one-line error messages: at most 24 bytes in back quotes, control characters shown as ?.
 std::string quoted_word(std::string_view word);
 
-/// True if a name could not be shown in one line or written into a list: it holds control characters.
+/// True if a name contains control characters, so that it cannot be shown in one line or written into a list.
 bool has_control_characters(std::string_view name);
 
 /// Throws InputError(name, "line N", fault).
 [[noreturn]] void fail_line(const std::string& name, std::size_t line, const std::string& fault);
 
-/// The word as a finite number, or fail_line.
+/// The word as a finite number; calls fail_line if it is not one.
 double word_number(const std::string& name, std::size_t line, std::string_view word);
 
-/// Calls visit(line number from 1, trimmed text) for every line that holds something and is no comment (#). A
-/// byte-order mark is passed over as without_byte_order_mark says; `name` stands for the file in its error.
+/// Calls visit(line number from 1, trimmed text) for every line that is neither empty nor a comment (#). A byte-order
+/// mark is handled by without_byte_order_mark; `name` stands for the file in its error.
 template <typename Visit>
 void for_each_line(const std::string& name, std::string_view text, Visit visit) {
   text = without_byte_order_mark(name, text);

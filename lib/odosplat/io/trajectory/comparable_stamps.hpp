@@ -8,17 +8,17 @@
 
 namespace odosplat {
 
-/// A file of poses and what errors say of it.
+/// A file of poses and how error messages refer to it.
 struct NamedPoses {
   const PoseFile& file;
   std::string name;
-  std::string times_flag;  // that names its times, as in "--times"
+  std::string times_flag;  // the flag that gives its times, as in "--times"
 };
 
-/// InputError if the stamps of two files do not say which of their poses belong together:
-///   - both have line numbers for times, or one has and the other numbers of frames, and they do not hold equally many
-///     poses (those of keyframes among them have lost their numbers);
-///   - one has times and the other has none. Times that are all whole numbers count as numbers of frames.
+/// Throws InputError if the stamps of two files do not determine which of their poses correspond:
+///   - at least one has line numbers instead of times, and the files do not have the same number of poses (for example
+///     if one has poses of keyframes only, whose frame numbers are not stored);
+///   - one has times and the other has none. Times that are all whole numbers count as frame numbers.
 void require_comparable_stamps(const NamedPoses& a, const NamedPoses& b);
 
 }  // namespace odosplat

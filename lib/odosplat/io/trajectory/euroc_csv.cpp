@@ -20,7 +20,7 @@ using Words = std::vector<std::string_view>;
 constexpr std::int64_t nanoseconds = 1'000'000'000;
 constexpr std::size_t table_width = 17;
 constexpr std::size_t pose_width = 8;
-constexpr std::size_t epoch_digits = 16;  // nanoseconds since 1970, or of any clock that ran for four months
+constexpr std::size_t epoch_digits = 16;  // nanoseconds since 1970, or since any start more than four months ago
 
 Words split(std::string_view line) {
   Words words;
@@ -42,7 +42,7 @@ std::string lower(std::string_view word) {
   return text;
 }
 
-// Column of a heading that names the quaternion's part: "q_RS_w []", "qw", "q_w".
+// Column whose heading names that component of the quaternion: "q_RS_w []", "qw", "q_w".
 std::size_t column_of(const Words& heading, char part) {
   for (std::size_t i = 0; i < heading.size(); ++i) {
     const std::string name = lower(heading[i].substr(0, heading[i].find(' ')));
@@ -64,7 +64,7 @@ Heading heading_of(std::string_view comment) {
   return {lower(names.front()).find("[ns]") != std::string::npos, w < names.size() && x < w};
 }
 
-// Calls visit(line number, comment line or values, true for a comment) until it returns false.
+// Calls visit(line number, words of the line, whether it is a comment) until it returns false.
 template <typename Visit>
 void each_line(std::string_view text, Visit visit) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte-order mark

@@ -43,7 +43,7 @@ class Lines {
   [[noreturn]] void fail(const Line& line, const std::string& fault) const {
     throw InputError(name_, "line " + std::to_string(line.number), fault);
   }
-  /// The first value of a line, which is a time or a number of a frame.
+  /// The first value of a line, which is a time or a frame number.
   double stamp(const Line& line) const {
     if (!std::isfinite(line.values[0])) fail(line, shown(line.first) + " is not finite");
     return line.values[0];
@@ -77,7 +77,7 @@ class Lines {
   std::vector<Line> lines_;
 };
 
-// Stands for a pose that a file gives as not finite, until poses are told from places without one.
+// Marks a pose with values that are not finite while a file is parsed; such poses are left out at the end.
 SE3 no_pose() { return {Eigen::Quaterniond::Identity(), Eigen::Vector3d::Constant(std::nan(""))}; }
 
 bool all_finite(const std::vector<double>& values) {
@@ -103,7 +103,7 @@ StampedPose tum_pose(const Lines& lines, const Line& line) {
   }
 }
 
-// `rows` lines of four values, from line `first` on, one behind the other.
+// The values of `rows` lines with four values each, starting at line `first`.
 std::vector<double> matrix_rows(const Lines& lines, std::size_t first, std::size_t rows) {
   const std::vector<Line>& all = lines.all();
   if (all.size() - first < rows) lines.fail(all.back(), "the last matrix is not complete");
@@ -158,7 +158,7 @@ Trajectory pose_a_line(const Lines& lines) {
   return trajectory;
 }
 
-// A pose starts every `lines_a_pose` lines.
+// Throws InputError if times decrease. Each pose takes `lines_a_pose` lines.
 void require_order(const Lines& lines, std::size_t lines_a_pose, const Trajectory& trajectory) {
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     if (!(trajectory[i].time >= trajectory[i - 1].time)) {
@@ -181,7 +181,7 @@ void set_times(const std::string& times_path, Trajectory& trajectory) {
   require_order(lines, 1, trajectory);
 }
 
-// Every pose that a file lists, no_pose() where it is not finite.
+// All poses that a file lists, with no_pose() in place of those that are not finite.
 struct Listed {
   Trajectory poses;
   StampKind stamps = StampKind::times;
@@ -231,9 +231,9 @@ PoseFile pose_file(const std::string& name, Listed listed) {
 std::optional<SE3> pose_from_rows(const std::vector<double>& rows) {
   const Eigen::Matrix<double, 3, 4> M = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(rows.data());
   const Eigen::Matrix3d R = M.leftCols<3>();
-  // Files carry 5 to 9 digits. A NaN, as huge values give, is no rotation either.
+  // A tolerance for the 5 to 9 digits of files. Written so that NaN, from huge values, is refused too.
   if (!((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() <= 1e-2) || R.determinant() < 0.0) return std::nullopt;
-  // The nearest rotation: a quaternion taken from the rounded matrix would be 1e-6 degrees off.
+  // The nearest rotation, because a quaternion computed from the rounded matrix would be 1e-6 degrees off.
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return SE3(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()), Eigen::Vector3d(M.col(3)));
 }

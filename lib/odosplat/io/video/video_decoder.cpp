@@ -40,29 +40,31 @@ using Packet = std::unique_ptr<AVPacket, Free<av_packet_free>>;
 using Frame = std::unique_ptr<AVFrame, Free<av_frame_free>>;
 using Scaler = std::unique_ptr<SwsContext, FreeScaler>;
 
-// FFmpeg's names of the formats that are one file.
+// FFmpeg's names of the formats that consist of a single file.
 constexpr const char* single_files =
     "mov,matroska,avi,mpegts,mpeg,mpegvideo,m4v,ogg,flv,asf,mxf,nut,dv,ivf,h261,h263,h264,hevc,av1,obu,vc1,mjpeg,"
     "mjpeg_2000,gif,apng";
 
 [[noreturn]] void no_video(const std::string& path) { throw InputError(path, "is not a video that can be read"); }
 
-// With `flags` of AVFormatContext.
+// Opens the file. flags: of AVFormatContext.
 Format open_format(const std::string& path, int flags) {
   AVFormatContext* format = avformat_alloc_context();
   if (format == nullptr) no_video(path);
   format->flags |= flags;
   AVDictionary* options = nullptr;
-  // Playlists and lists name other files and addresses, which may be pipes; they are opened when the header is read.
+  // Playlists and lists are excluded: FFmpeg would open the files, pipes and addresses that they name as soon as it
+  // reads the header.
   av_dict_set(&options, "protocol_whitelist", "file", 0);
   av_dict_set(&options, "format_whitelist", single_files, 0);
   const int opened = avformat_open_input(&format, ("file:" + path).c_str(), nullptr, &options);
   av_dict_free(&options);
-  if (opened < 0) no_video(path);  // the context is freed then
+  if (opened < 0) no_video(path);  // avformat_open_input has freed the context
   return Format(format);
 }
 
-// Bare streams (.h264, .mjpeg) hold no stamps; unless told not to, FFmpeg makes some up from a rate.
+// Whether packets have stamps. Bare streams (.h264, .mjpeg) have none; without these flags FFmpeg would generate stamps
+// from a rate.
 bool holds_stamps(const std::string& path) {
   constexpr int enough_packets = 64;
   const Format format = open_format(path, AVFMT_FLAG_NOFILLIN | AVFMT_FLAG_NOPARSE);
@@ -75,7 +77,7 @@ bool holds_stamps(const std::string& path) {
   return false;
 }
 
-// Three by three, 16.16 and 2.30 fixed point; null: none.
+// The 3x3 display matrix in 16.16 and 2.30 fixed point; null if there is none.
 const std::int32_t* display_matrix(const AVStream& stream) {
 #if LIBAVFORMAT_VERSION_MAJOR >= 61
   const AVPacketSideData* data = av_packet_side_data_get(
@@ -112,15 +114,15 @@ struct VideoDecoder::State {
   Packet packet{av_packet_alloc()};
   Frame frame{av_frame_alloc()};
   Scaler scaler;
-  // What the container promises: images by its index (0: it has none), images by its header (AVI: also those that stand
-  // for a repeated one), and its length [s].
+  // Declared by the container: number of images by its index (0: no index) and by its header (AVI: including entries
+  // that repeat an image), and its duration [s].
   long indexed = 0;
   long declared = 0;
   double declared_s = 0.0;
   bool is_avi = false;
-  // What there is.
+  // Found in the file.
   long packets = 0;
-  std::int64_t end = 0;  // of the last image, in the stream's time base
+  std::int64_t end = 0;  // end of the last image, in the stream's time base
   long undecoded = 0;
   long corrupt = 0;
 
@@ -130,7 +132,7 @@ struct VideoDecoder::State {
     return static_cast<double>(stamp) * av_q2d(video().time_base);
   }
 
-  // Hands the codec one more packet, or the end.
+  // Gives the codec the next packet, or signals the end of the stream.
   void feed() {
     while (av_read_frame(format.get(), packet.get()) >= 0) {
       const bool ours = packet->stream_index == stream;
@@ -146,23 +148,25 @@ struct VideoDecoder::State {
 
   void note(const AVPacket& taken) {
     const std::int64_t start = taken.pts != AV_NOPTS_VALUE && !is_avi ? taken.pts : taken.dts;
-    // An AVI's clock goes on by one for each image and repetition, which has no duration of its own.
+    // The time of an AVI increases by one per image or repetition; its packets have no duration.
     const std::int64_t duration = std::max<std::int64_t>(taken.duration, is_avi ? 1 : 0);
     if (start != AV_NOPTS_VALUE) end = std::max(end, start + duration);
     ++packets;
   }
 
-  // entries: images of each stream by the index, before any packet is read: later it holds what was found.
+  // entries: number of images in the index of each stream before any packet is read. FFmpeg adds packets that it reads
+  // to the index later.
   void note_promises(const std::vector<long>& entries) {
     is_avi = std::string_view(format->iformat->name) == "avi";
-    // Some formats (FLV, MPEG) show their streams with the packets alone.
+    // In some formats (FLV, MPEG) streams are found only while packets are read, so `entries` may be shorter.
     const auto at = static_cast<std::size_t>(stream);
     indexed = at < entries.size() ? entries[at] : 0;
     if (is_avi) declared = static_cast<long>(video().nb_frames);
     note_length();
   }
 
-  // Matroska says how long its video is, or how long all streams are; of transport streams FFmpeg itself measures it.
+  // Matroska declares the duration of its video stream, or that of all streams together. For transport streams the
+  // duration is FFmpeg's own measurement and says nothing about missing data.
   void note_length() {
     const AVDictionaryEntry* tag = av_dict_get(video().metadata, "DURATION", nullptr, 0);
     int hours = 0;
@@ -179,7 +183,7 @@ struct VideoDecoder::State {
 };
 
 VideoDecoder::VideoDecoder(const std::string& path) : state_(std::make_unique<State>()) {
-  av_log_set_level(AV_LOG_QUIET);  // the InputError says all that the user needs
+  av_log_set_level(AV_LOG_QUIET);  // the InputError tells the user what is wrong
   State& s = *state_;
   s.path = path;
   s.format = open_format(path, 0);
@@ -189,7 +193,7 @@ VideoDecoder::VideoDecoder(const std::string& path) : state_(std::make_unique<St
   if (avformat_find_stream_info(s.format.get(), nullptr) < 0) no_video(path);
   const AVCodec* decoder = nullptr;
   s.stream = av_find_best_stream(s.format.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &decoder, 0);
-  // Covers of music, and text drawn as a screen, are no videos.
+  // Cover images of music files and ANSI text rendered as a screen do not count as videos.
   if (s.stream < 0 || decoder == nullptr || decoder->id == AV_CODEC_ID_ANSI ||
       (s.video().disposition & AV_DISPOSITION_ATTACHED_PIC) != 0) {
     no_video(path);
@@ -238,12 +242,12 @@ VideoDecoder::Damage VideoDecoder::damage() const {
   damage.undecoded = s.undecoded;
   damage.corrupt = s.corrupt;
   damage.missing = std::max(0L, s.indexed - s.packets);
-  // An AVI's stamps count its images and repetitions.
+  // The stamps of an AVI count its images and repetitions, so s.end is their number.
   if (s.is_avi) damage.missing = std::max({0L, damage.missing, s.declared - static_cast<long>(s.end)});
   damage.shifts_stamps = s.is_avi && damage.missing > 0;
   const double end_s = s.seconds(s.end).value_or(0.0);
   const double image_s = rate() > 0.0 ? 1.0 / rate() : 0.0;
-  // The last image's own length is often unknown, and then not in `end`.
+  // A tolerance of 1.5 images, because the duration of the last image is often unknown and then not included in `end`.
   if (damage.missing == 0 && s.declared_s - end_s > 1.5 * image_s + 0.01) damage.missing_s = s.declared_s - end_s;
   return damage;
 }
@@ -288,7 +292,7 @@ cv::Mat3b VideoDecoder::image() const {
   }
   if (s.quarters == 0) return stored;
   cv::Mat3b turned;
-  cv::rotate(stored, turned, s.quarters - 1);  // cv::ROTATE_90_CLOCKWISE is 0
+  cv::rotate(stored, turned, s.quarters - 1);  // codes 0, 1, 2: 90, 180, 270 degrees clockwise
   return turned;
 }
 

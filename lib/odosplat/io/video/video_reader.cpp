@@ -19,7 +19,7 @@ constexpr double same_step = 1e-3;  // [s] containers round their stamps
 
 std::string size_text(const cv::Size& size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
 
-// What a pass through the whole file finds.
+// The result of a pass through the whole file.
 struct Pass {
   std::vector<std::optional<double>> times;
   std::vector<std::optional<double>> best_times;
@@ -47,7 +47,7 @@ std::string seconds_text(double seconds) {
   return text;
 }
 
-// One line that says what the file promises and does not hold.
+// Logs one line about images that the file declares but that are missing or damaged.
 void warn_of_damage(const std::string& path, const VideoDecoder::Damage& damage, std::size_t frames) {
   if (!damage.any()) return;
   std::string faults;
@@ -69,7 +69,7 @@ bool are_all_known(const std::vector<std::optional<double>>& times) {
   return true;
 }
 
-// True if every known time lies on one grid of `step`, as far as its rounding tells.
+// True if all known times lie on one regular grid with spacing `step`, within the rounding of stamps.
 bool is_regular(const std::vector<std::optional<double>>& times, double step) {
   std::optional<double> first;
   for (std::size_t k = 0; k < times.size(); ++k) {
@@ -112,7 +112,7 @@ struct VideoReader::State {
   std::vector<double> times;
   std::mutex mutex;
   std::optional<VideoDecoder> decoder;
-  std::size_t next = 0;  // number of the frame that the decoder gives next
+  std::size_t next = 0;  // number of the frame that the decoder returns next
 };
 
 VideoReader::VideoReader(std::string path) : state_(std::make_unique<State>()) {

@@ -10,25 +10,25 @@
 
 namespace odosplat {
 
-/// Frames of a video file by number, in the order of presentation, turned as the container says that they are to be
-/// shown (as players and ffmpeg turn them). Frames that are asked for in order are decoded once; going back starts
-/// again at the first, since seeking lands on the right frame with some formats only. All frames are decoded once at
-/// construction, for their number and stamps, since what a file says of its length is often wrong; one warning tells of
-/// images that it promises and does not hold, and of those that are damaged (VideoDecoder::Damage). InputError if the
-/// file is no video or holds no frame, if its frames are not of one size or if their stamps do not grow. Thread safe.
+/// Frames of a video file by number, in the order of presentation, rotated as the container says that they are to be
+/// shown (as players and ffmpeg do). Frames requested in order are decoded once; going back starts again at the first
+/// frame, because seeking is exact with some formats only. All frames are decoded once at construction to find their
+/// number and stamps, because the length that a file declares is often wrong; one warning reports images that are
+/// declared but missing, and those that are damaged (VideoDecoder::Damage). Throws InputError if the file is not a
+/// video or has no frame, if its frames differ in size or if their stamps do not increase. Thread safe.
 class VideoReader {
  public:
   explicit VideoReader(std::string path);
   ~VideoReader();
 
   std::size_t size() const;
-  /// Of the images as they are handed out.
+  /// Size of the images that frame() returns.
   cv::Size frame_size() const;
-  /// Quarters by which images were turned clockwise, 0 to 3.
+  /// Clockwise quarter turns by which images were rotated, 0 to 3.
   int quarters() const;
-  /// Presentation stamp of each frame [s], as the container has it. Containers without stamps for images that are
-  /// stored out of order (AVI with B-frames) are read if their rate is constant: frame k is at k / rate then. Empty: a
-  /// bare stream, which has none.
+  /// Presentation stamp of each frame [s] from the container. Containers without stamps for images that are stored out
+  /// of order (AVI with B-frames) are read if their rate is constant; frame k is then at k / rate. Empty for a bare
+  /// stream, which has no stamps.
   const std::vector<double>& times() const;
   /// RGB, i < size(). InputError if it cannot be decoded.
   cv::Mat3b frame(std::size_t i) const;

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the name ends so, in any case.
+/// Whether the name has that extension, in upper or lower case.
 bool ends_in(const std::string& path, const std::string& ending) {
   std::string text = fs::path(path).extension().string();
   std::transform(text.begin(), text.end(), text.begin(),
@@ -85,7 +85,7 @@ void VideoWriter::write(const cv::Mat3b& rgb) {
 void VideoWriter::commit() {
   State& s = *state_;
   s.writer.release();
-  // OpenCV tells nothing of what could not be written: the file is read as others will read it.
+  // OpenCV reports no write errors, so the file is checked by reading it.
   std::size_t there = 0;
   try {
     const VideoReader reader(s.file.temporary_name());

@@ -127,7 +127,7 @@ void add_bookshelf(SceneBuilder& builder, const Eigen::Vector3f& size, int board
       const float front = -d + between(random, 0.005, 0.04);
       if (x + thickness > end) break;
       const int cover = pick(random, books);
-      // Back of the book to the front, paper on top.
+      // Spine of the book to the front, paper on top.
       builder.add_box({x, front, floor}, {x + thickness - 0.001F, front + depth, floor + height},
                       {cover, cover, cover, -1, -1, paper});
       x += thickness;

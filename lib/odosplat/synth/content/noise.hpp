@@ -6,7 +6,7 @@
 
 namespace odosplat {
 
-/// Well-mixed 32 bits of a lattice point and a seed.
+/// A 32-bit hash of a lattice point and a seed.
 std::uint32_t lattice_hash(int x, int y, std::uint32_t seed);
 
 /// Gradient noise on the integer lattice: smooth, mean 0, about -0.7..0.7. Source: Perlin, "Improving noise" (2002),

@@ -11,8 +11,8 @@
 
 namespace odosplat {
 
-/// Images for textures, stored colours 0..1. All are deterministic in their seed, and tile without a seam in both
-/// directions where it says so. Sizes in pixels, at least 1.
+/// Images for textures, stored colours 0..1. All are determined by their seed. Those marked "Tiles" repeat without a
+/// seam in both directions. Sizes in pixels, at least 1.
 
 /// width x height image of color(x, y) with x, y in [0, 1) at pixel centres; clamped to 0..1. Runs on all threads.
 ColorImage paint(int width, int height, const std::function<Eigen::Vector3f(float x, float y)>& color);
@@ -28,7 +28,7 @@ ColorImage marble_pattern(int size, int cells, const Eigen::Vector3f& low, const
 ColorImage wood_pattern(int width, int height, const Eigen::Vector3f& dark, const Eigen::Vector3f& bright,
                         std::uint32_t seed);
 
-/// A floor of planks along x, each with a tone, a grain and joints of its own. Tiles.
+/// A floor of planks along x with individual tone, grain and joints. Tiles.
 ColorImage plank_pattern(int size, int planks, const Eigen::Vector3f& dark, const Eigen::Vector3f& bright,
                          std::uint32_t seed);
 
@@ -46,14 +46,14 @@ ColorImage cloth_pattern(int size, const Eigen::Vector3f& color, const Eigen::Ve
 /// An oriental carpet: border, field with a medallion and small motifs, pile noise. Does not tile.
 ColorImage carpet_pattern(int width, int height, std::uint32_t seed);
 
-/// Something to hang on a wall, of large and small detail: 0 landscape, 1 town, 2 abstract; other kinds count modulo 3.
-/// Does not tile.
+/// A picture with large and small detail. kind: 0 landscape, 1 town, 2 abstract; other values are taken modulo 3. Does
+/// not tile.
 ColorImage picture_pattern(int width, int height, int kind, std::uint32_t seed);
 
-/// A book's back with bands and lines like lettering, in greys to be tinted. Does not tile.
+/// A book's spine with bands and lines like lettering, in greys that are multiplied by a tint. Does not tile.
 ColorImage book_pattern(int width, int height, std::uint32_t seed);
 
-/// Carpet tiles whose pile runs along x and y in turn. Tiles if `tiles` is even.
+/// Carpet tiles whose pile runs alternately along x and y. Tiles if `tiles` is even.
 ColorImage carpet_tile_pattern(int size, int tiles, const Eigen::Vector3f& color, float contrast, std::uint32_t seed);
 
 /// A suspended ceiling of mineral tiles in rails. Tiles.
@@ -68,8 +68,8 @@ ColorImage screen_pattern(int width, int height, std::uint32_t seed);
 ColorImage document_pattern(int width, int height, std::uint32_t seed);
 ColorImage whiteboard_pattern(int width, int height, std::uint32_t seed);
 
-/// What is seen from a window: over azimuth (x) and elevation (y, zenith on top) sky with clouds and a line of trees.
-/// Tiles in x.
+/// The view from a window over azimuth (x) and elevation (y, zenith on top): sky with clouds and a line of trees. Tiles
+/// in x.
 ColorImage outdoor_pattern(int width, int height, std::uint32_t seed);
 
 }  // namespace odosplat

@@ -46,7 +46,7 @@ ColorImage plank_pattern(int size, int planks, const Color& dark, const Color& b
   return paint(size, size, [=](float x, float y) -> Color {
     const int row = static_cast<int>(y * n);
     const float across = fraction(y * n);
-    // Two boards a row and tile, shifted row by row.
+    // Two boards per row and tile, shifted from row to row.
     const float along = x + hash01(row, 0, seed);
     const int board = static_cast<int>(std::floor(2.0F * along)) & 1;
     const float in_board = fraction(2.0F * along);

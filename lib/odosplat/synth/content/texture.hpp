@@ -15,9 +15,9 @@ namespace odosplat {
 float to_linear(float stored);
 float from_linear(float linear);
 
-/// A colour image on a surface, filtered by a mip pyramid (Williams 1983, trilinear), so that pictures of it from afar
-/// do not alias. Coordinates are in tiles: (0,0) is the image's top-left corner, (1,1) its bottom-right corner.
-/// Outside, the image is repeated, or its border goes on. Immutable; any number of threads may read it.
+/// A colour image on a surface, filtered by a mip pyramid (Williams 1983, trilinear) to avoid aliasing at a distance.
+/// Coordinates are in tiles: (0,0) is the image's top-left corner, (1,1) its bottom-right corner. Outside, the image is
+/// repeated or its border pixels are continued. Immutable; any number of threads may read it.
 class Texture {
  public:
   enum class Edge { repeat, clamp };
@@ -30,7 +30,7 @@ class Texture {
   Eigen::Vector3f sample(const Eigen::Vector2f& uv, float footprint) const;
 
   const Eigen::Vector2f& size_m() const { return size_m_; }
-  /// Texels of the finest level a tile, in u and v.
+  /// Texels of the finest level per tile, in u and v.
   Eigen::Vector2f texels() const;
 
  private:

@@ -14,8 +14,8 @@ struct Clearance {
   std::size_t frame = 0;
 };
 
-/// Where a path comes nearest to anything in the scene, looked for within `reach` [m] of its positions; if nothing is
-/// so near, the distance is `reach`. An empty path likewise. Deterministic, on all threads.
+/// The frame at which a path is nearest to a surface of the scene, and that distance. Only surfaces within `reach` [m]
+/// are searched; if there are none, or the path is empty, the distance is `reach`. Deterministic; uses all threads.
 Clearance clearance(const Scene& scene, const Trajectory& path, double reach = 0.5);
 
 }  // namespace odosplat

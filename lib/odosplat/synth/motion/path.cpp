@@ -52,7 +52,7 @@ Trajectory hand_held_path(const std::vector<Waypoint>& waypoints, const PathOpti
   for (int i = 0; i < 6; ++i) tremor.emplace_back(random, duration, options.closed);
 
   Trajectory path;
-  double worst = 0.0;  // how many times too fast
+  double worst = 0.0;  // largest ratio of a speed or turn rate to its limit
   for (int k = 0; k <= options.frames; ++k) {
     const double time = k / options.fps;
     const double share = std::min(time / duration, 1.0);
@@ -62,7 +62,7 @@ Trajectory hand_held_path(const std::vector<Waypoint>& waypoints, const PathOpti
     const SE3 T_world_steady = look_at(p.head<3>() + options.tremor_m * shift, p.tail<3>());
     const SE3 T_steady_camera(so3_exp(options.tremor_rad * turn), Eigen::Vector3d::Zero());
     const SE3 T_world_camera = T_world_steady * T_steady_camera;
-    // A closed path is followed one frame further, to its start, for the sake of this check.
+    // For this check a closed path is followed by one more frame, to its start.
     if (k > 0 && (k < options.frames || options.closed)) {
       const SE3 T_last_camera = path.back().T_world_camera.inverse() * T_world_camera;
       worst = std::max({worst, T_last_camera.translation().norm() * options.fps / options.max_speed,

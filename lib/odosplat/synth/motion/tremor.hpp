@@ -8,9 +8,9 @@
 
 namespace odosplat {
 
-/// One coordinate of a hand's tremor, of variance 1 over time: a sum of sines of random phase from 0.3 to 9 Hz, whose
-/// power falls with frequency squared below 3 Hz (sway) and faster above, as measured for hand-held cameras.
-/// duration [s]: on a closed path each wave comes back to its start after it.
+/// One coordinate of a hand's tremor, with variance 1 over time: a sum of sines with random phases from 0.3 to 9 Hz,
+/// whose power decreases with frequency squared below 3 Hz (sway) and faster above, as measured for hand-held cameras.
+/// On a closed path every sine has a whole number of periods in `duration` [s].
 class Tremor {
  public:
   Tremor(Random& random, double duration, bool closed);

@@ -13,7 +13,7 @@ namespace odosplat {
 namespace {
 
 constexpr double radians_a_degree = 3.14159265358979323846 / 180.0;
-constexpr int steps_a_unit = 400;  // of the spline's parameter, in the table of the pace
+constexpr int steps_a_unit = 400;  // entries of `pace_` per unit of the spline's parameter
 
 SE3 steady_pose(const PathSpline::Point& p) { return look_at(p.head<3>(), p.tail<3>()); }
 

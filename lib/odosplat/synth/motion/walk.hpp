@@ -15,32 +15,33 @@ struct WalkOptions {
   double fps = 30.0;          // [1/s] > 0
   int frames = 240;           // >= 2
   double length_m = 3.0;      // [m] > 0, summed from frame to frame, tremor included
-  bool loop = false;          // true: the waypoints are gone round as often as the length asks for
-  double turn_m = 0.5;        // [m] > 0: turning by a radian takes as long as going so far
+  bool loop = false;          // true: the waypoints form a loop, which is repeated until length_m is reached
+  double turn_m = 0.5;        // [m] > 0: turning by a radian takes as long as walking this distance
   double tremor_m = 0.002;    // [m] standard deviation of each coordinate of the eye's tremor, 0..0.05
   double tremor_deg = 0.25;   // [deg] the same for rotation, 0..5
   double max_speed = 1.5;     // [m/s] > 0
-  double max_turn_deg = 3.0;  // [deg a frame] > 0
+  double max_turn_deg = 3.0;  // [deg per frame] > 0
   std::uint64_t seed = 1;     // of the tremor
 
   /// Throws InputError naming the field.
   void check() const;
 };
 
-/// A hand-held walk of a given length in a given time, known at any time: tremor as in hand_held_path, waypoints joined
-/// by the same spline. The pace is even in metres plus turn_m times radians, so that quick turns slow the feet, and
-/// is slow at start and end. How far along the waypoints the walk goes follows from length_m.
-/// Throws InputError if the waypoints of an open walk end before length_m is reached, if tremor alone is longer, or
-/// if speed or turn between frames exceed their limits. Immutable; any number of threads may ask.
+/// A hand-held walk of a given length in a given time, with a pose at any time: tremor and spline as in hand_held_path.
+/// The speed is constant in metres plus turn_m times radians, so that the walk is slower in turns, except for
+/// acceleration at the start and deceleration at the end. length_m determines how far along the waypoints the walk
+/// goes. Throws InputError if the waypoints of an open walk end before length_m is reached, if the path of the tremor
+/// alone is longer than length_m, or if speed or turn between frames exceed their limits. Immutable; any number of
+/// threads may use it.
 class Walk {
  public:
   Walk(const std::vector<Waypoint>& waypoints, const WalkOptions& options);
 
-  /// T_world_camera at a time [s]; before 0 and after the last frame the feet stand still.
+  /// T_world_camera at a time [s]; before 0 and after the last frame only the tremor moves the camera.
   SE3 pose_at(double time) const;
   /// Poses of all frames, at k / fps.
   Trajectory trajectory() const;
-  /// Share of the waypoints that is walked; above 1 on a loop gone round more than once.
+  /// Share of the waypoints' path that is covered; above 1 for a loop that is walked more than once.
   double laps() const { return reach_ / total_; }
 
  private:
@@ -50,9 +51,10 @@ class Walk {
   WalkOptions options_;
   PathSpline spline_;
   std::vector<Tremor> tremor_;
-  std::vector<double> pace_;  // metric distance from the start at equal steps of the spline's parameter
-  double total_ = 0.0;        // metric length of the waypoints
-  double reach_ = 0.0;        // metric distance that the walk covers
+  // Distances in metres plus turn_m times radians:
+  std::vector<double> pace_;  // from the start, at equal steps of the spline's parameter
+  double total_ = 0.0;        // over all waypoints
+  double reach_ = 0.0;        // that the walk covers
 };
 
 /// Sum of the distances [m] between the poses' positions.

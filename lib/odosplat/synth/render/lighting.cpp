@@ -13,10 +13,10 @@ namespace odosplat {
 namespace {
 
 constexpr float pi = 3.14159265F;
-constexpr float nearest = 0.05F;      // [m] lights are kept from growing without bound
-constexpr float lift = 2e-3F;         // [m] above the surface, where light is gathered
-constexpr float gather_limit = 2.0F;  // brighter spots, close to a lamp, would come out as speckles
-constexpr float gather_width = 0.3F;  // [m] colours of other surfaces are averaged over this
+constexpr float nearest = 0.05F;      // [m] lower limit for the distance of a light, so that its light is bounded
+constexpr float lift = 2e-3F;         // [m] height above the surface at which light is gathered
+constexpr float gather_limit = 2.0F;  // limit for stored light, because bright spots near a lamp would cause speckles
+constexpr float gather_width = 0.3F;  // [m] width over which colours of other surfaces are averaged
 
 struct Texel {
   int patch = 0;
@@ -84,7 +84,7 @@ Eigen::Vector3f direct_light(const Scene& scene, const Light& light, const Texel
   return light.radiance * (sum * area / (static_cast<float>(samples) * pi));
 }
 
-/// Irradiance / pi from other surfaces, with the light they have now.
+/// Irradiance / pi from other surfaces with their light of the previous round.
 Eigen::Vector3f gathered_light(const Scene& scene, const Texel& texel, int samples) {
   const Eigen::Vector3f origin = texel.position + lift * texel.normal;
   Eigen::Vector3f s;
@@ -100,7 +100,7 @@ Eigen::Vector3f gathered_light(const Scene& scene, const Texel& texel, int sampl
                                       std::sqrt(1.0F - r.x()) * texel.normal;
     RayHit hit;
     if (!scene.closest({origin, direction}, hit)) continue;
-    // The inside of a closed body brings no light.
+    // The inside of a closed body reflects no light.
     const auto& triangle = scene.content().triangles[static_cast<std::size_t>(hit.triangle)];
     if (triangle.normal_world.dot(direction) > 0.0F) continue;
     sum += scene.albedo(hit, gather_width).cwiseProduct(scene.light(hit).cwiseMin(gather_limit));
@@ -108,7 +108,7 @@ Eigen::Vector3f gathered_light(const Scene& scene, const Texel& texel, int sampl
   return sum / static_cast<float>(samples);
 }
 
-/// Binomial 3x3 mean over a patch, which takes away most of the sampling noise.
+/// Binomial 3x3 mean over a patch, which removes most of the sampling noise.
 std::vector<Eigen::Vector3f> smoothed(const std::vector<Eigen::Vector3f>& light, int width, int height) {
   auto at = [width](int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);

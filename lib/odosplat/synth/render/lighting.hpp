@@ -10,8 +10,8 @@
 
 namespace odosplat {
 
-/// An area that gives off light, diffuse: a parallelogram (a window, shining to the side of edge_v x edge_u) or a
-/// sphere of the given radius about corner.
+/// A diffuse area light: a parallelogram (a window, emitting to the side of edge_v x edge_u) or a sphere of the given
+/// radius about corner.
 struct Light {
   Eigen::Vector3f corner;
   Eigen::Vector3f edge_u = Eigen::Vector3f::Zero();
@@ -20,7 +20,7 @@ struct Light {
   Eigen::Vector3f radiance = Eigen::Vector3f::Ones();  // linear
 };
 
-/// Position [m] and normal of a patch's points in the world, and its extent [m].
+/// Positions [m] and normals of a patch's points in the world frame, and its extent [m].
 struct PatchFrame {
   std::function<Eigen::Vector3f(float u, float v)> position;
   std::function<Eigen::Vector3f(float u, float v)> normal;
@@ -29,21 +29,21 @@ struct PatchFrame {
 
 struct LightingOptions {
   float texel_m = 0.07F;    // [m] distance of the points where light is stored, > 0
-  int max_texels = 96;      // a side of a patch, 2..1024
+  int max_texels = 96;      // per side of a patch, 2..1024
   int light_samples = 16;   // points on each light, 1..4096
   int gather_samples = 36;  // directions for light from other surfaces, 1..4096
   int bounces = 2;          // 0..8
-  float exposure = 1.0F;    // radiance to the tone curve, > 0
+  float exposure = 1.0F;    // factor on the radiance before the tone curve, > 0
 
   /// Throws InputError naming the field.
   void check() const;
 };
 
 /// Computes the light stored on the patches: direct light from area lights with shadow rays, then `bounces` rounds of
-/// diffuse light from other surfaces (final gathering by cosine-weighted directions). Rays that leave the scene bring
-/// nothing: windows are lights. Writes content.patches[i].light for each frames[i], content.lit and content.exposure.
-/// Deterministic whatever the number of threads: sample points are Hammersley points (Hammersley 1960), shifted by a
-/// hash of the texel.
+/// diffuse light from other surfaces (final gathering by cosine-weighted directions). Rays that leave the scene
+/// contribute no light, because windows are area lights. Writes content.patches[i].light for each frames[i],
+/// content.lit and content.exposure. Deterministic, whatever the number of threads: sample points are Hammersley points
+/// (Hammersley 1960), shifted by a hash of the texel.
 void compute_light(SceneContent& content, const std::vector<PatchFrame>& frames, const std::vector<Light>& lights,
                    const LightingOptions& options);
 

@@ -9,14 +9,14 @@
 
 namespace odosplat {
 
-/// Places of n samples about a pixel's centre [px] (Roberts' R2 sequence); their mean is the centre.
+/// Offsets of n samples from a pixel's centre [px] (Roberts' R2 sequence); their mean is zero.
 std::vector<Eigen::Vector2d> sample_offsets(int n);
 
-/// Width [m] of what one of n samples stands for at a distance of 1 m along the optical axis: a little more than the
-/// samples' distance, so that what lies between them is seen too.
+/// Width [m], at a depth of 1 m, of the area that one of n samples represents: slightly more than the distance between
+/// samples, so that no area between them is left out.
 float sample_spacing(const Camera& camera, int n);
 
-/// Sum of the radiance of a pixel's samples. hint: of Scene::closest, passed on from pixel to pixel.
+/// Sum of the radiance of a pixel's samples. hint: for Scene::closest, passed on from pixel to pixel.
 Eigen::Vector3f pixel_radiance(const Scene& scene, const Camera& camera, const Eigen::Matrix3d& R_world_camera,
                                const Eigen::Vector3f& centre_world, int x, int y,
                                const std::vector<Eigen::Vector2d>& offsets, float spacing, int& hint);

@@ -10,15 +10,15 @@
 namespace odosplat {
 
 struct SceneViewOptions {
-  int samples = 4;       // colour samples a pixel, in 1..64
-  float sigma = 0.001F;  // [m] standard deviation given for every depth (the depth itself is exact), > 0
+  int samples = 4;       // colour samples per pixel, in 1..64
+  float sigma = 0.001F;  // [m] standard deviation reported for every depth (the depth itself is exact), > 0
 
   /// Throws InputError naming the field.
   void check() const;
 };
 
-/// The scene itself as a perfect map: exact depth (and colour, as the ray caster makes it) from any pose. For testing
-/// what uses maps. Holds the scene alive.
+/// The scene itself as a perfect map: exact depth, and the ray caster's colour, from any pose. For tests of code that
+/// uses maps. Shares ownership of the scene.
 class SceneView : public MapView {
  public:
   explicit SceneView(std::shared_ptr<const Scene> scene, const SceneViewOptions& options = {});

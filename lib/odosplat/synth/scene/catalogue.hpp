@@ -18,13 +18,13 @@ namespace odosplat {
 /// A parameter of a pattern or a kind of furniture.
 struct ParameterRow {
   std::string name;
-  std::vector<float> fallback;  // one number an element; empty: a list of triples of any length
-  bool needed = false;          // true: must be given, fallback tells how many numbers alone
+  std::vector<float> fallback;  // default value, one number per element; empty: a list of triples of any length
+  bool needed = false;          // true: must be given; fallback then only defines the number of elements
   float low = 0.0F;
   float high = 1000.0F;
 };
 
-/// Numbers that have been held against their rows: every parameter is there.
+/// Numbers that have been checked against their rows, so that every parameter is present.
 class Parameters {
  public:
   explicit Parameters(const Numbers& numbers) : numbers_(&numbers) {}
@@ -41,31 +41,31 @@ class Parameters {
   const Numbers* numbers_;
 };
 
-/// A way of painting a texture.
+/// A kind of texture.
 struct PatternRow {
   std::string name;
   std::vector<ParameterRow> parameters;
-  bool fit = false;  // one image fills the surface, whatever its size
+  bool fit = false;  // true: one image fills the surface, whatever its size
   std::function<ColorImage(const Parameters&, int width, int height, std::uint32_t seed)> paint;  // none: no texture
 };
 
-/// Parameters that every material has beside its pattern's.
+/// Parameters that every material has in addition to those of its pattern.
 const std::vector<ParameterRow>& material_parameters();
 const std::vector<PatternRow>& material_patterns();
 
-/// What a kind of furniture is built from.
+/// The parameters and materials of a piece of furniture.
 struct FurnitureParts {
   Parameters parameters;
-  std::map<std::string, std::vector<int>> materials;  // by place on the thing; indices of the builder's
+  std::map<std::string, std::vector<int>> materials;  // by place on the piece; indices of the builder's materials
 
   int material(const std::string& place) const { return materials.at(place)[0]; }
 };
 
-/// A kind of furniture; the builder's frame is set when `add` is called.
+/// A kind of furniture. The builder's frame must be set before `add` is called.
 struct FurnitureRow {
   std::string name;
   std::vector<ParameterRow> parameters;
-  std::vector<std::string> materials;  // places that need one
+  std::vector<std::string> materials;  // places on the piece that need a material
   std::function<void(SceneBuilder&, const FurnitureParts&, Random&)> add;
 };
 

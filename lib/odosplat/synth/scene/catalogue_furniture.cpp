@@ -18,7 +18,7 @@ ParameterRow radiance(float r, float g, float b) { return {"radiance", {r, g, b}
 
 std::vector<FurnitureRow> plain_bodies() {
   return {
-      // Its place is the middle of its lower side.
+      // Origin: the middle of its lower side.
       {"box",
        {needed_size3()},
        {"all"},
@@ -33,7 +33,7 @@ std::vector<FurnitureRow> plain_bodies() {
          b.add_cylinder({0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, p.parameters.number("height")}, p.parameters.number("radius"),
                         p.parameters.number("radius_top"), p.material("all"), 24, true);
        }},
-      // A bar along x, its middle at its place.
+      // A bar along x. Origin: its middle.
       {"rod",
        {length("radius", 0.014F), length("length", 1.0F)},
        {"all"},
@@ -113,7 +113,7 @@ std::vector<FurnitureRow> home_things() {
        [](Builder& b, const Parts& p, Random&) {
          add_floor_lamp(b, p.material("metal"), p.material("shade"), p.parameters.triple("radiance"));
        }},
-      // Its place is where it hangs from.
+      // Origin: the point from which it hangs.
       {"pendant",
        {length("drop", 1.0F), length("radius", 0.22F)},
        {"shade", "cord"},
@@ -220,7 +220,7 @@ std::vector<FurnitureRow> office_things() {
          add_partition(b, p.parameters.number("width"), p.parameters.number("height"), p.material("cloth"),
                        p.material("frame"));
        }},
-      // Its place is on the ceiling.
+      // Origin: on the ceiling.
       {"ceiling_light",
        {{"size", {1.2F, 0.6F}, false, 0.01F, 10.0F}, radiance(6.0F, 6.0F, 5.6F)},
        {"panel", "frame"},

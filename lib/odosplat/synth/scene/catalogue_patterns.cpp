@@ -14,13 +14,13 @@ std::vector<Eigen::Vector3f> Parameters::triples(const std::string& name) const 
 
 const std::vector<ParameterRow>& material_parameters() {
   static const std::vector<ParameterRow> rows{
-      {"size", {1.0F, 1.0F}, false, 0.01F, 100.0F},  // [m] of a tile of the texture
+      {"size", {1.0F, 1.0F}, false, 0.01F, 100.0F},  // [m] size of a tile of the texture
       {"pixels", {256.0F, 256.0F}, false, 1.0F, 4096.0F},
       {"tint", {1.0F, 1.0F, 1.0F}, false, 0.0F, 4.0F},
       {"gloss", {0.0F}, false, 0.0F, 1.0F},
       {"emission", {0.0F}},
-      {"shadow", {1.0F}, false, 0.0F, 1.0F},   // 0: light passes
-      {"count", {1.0F}, false, 1.0F, 100.0F},  // variants, picked at random where a thing takes several
+      {"shadow", {1.0F}, false, 0.0F, 1.0F},   // 0: light passes through
+      {"count", {1.0F}, false, 1.0F, 100.0F},  // number of variants, picked at random where a piece uses several
       {"tints", {}, false, 0.0F, 4.0F}};       // of the variants, picked at random
   return rows;
 }

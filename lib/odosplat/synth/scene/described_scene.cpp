@@ -20,7 +20,7 @@ const Row& row_named(const std::vector<Row>& rows, const std::string& name) {
   throw InputError("scene", name + " is not known");
 }
 
-/// The indices of a material's variants.
+/// Adds all variants of a material; returns their indices.
 std::vector<int> add_variants(SceneBuilder& builder, const MaterialDescription& description, std::uint32_t seed) {
   const PatternRow& pattern = row_named(material_patterns(), description.pattern);
   const Parameters p(description.numbers);
@@ -50,7 +50,7 @@ std::vector<int> add_variants(SceneBuilder& builder, const MaterialDescription& 
   return variants;
 }
 
-/// Length of a wall and its frame: x to the right as seen from inside, which is at -y.
+/// Length of a wall and its frame: x to the right as seen from inside the room, which is at -y.
 struct WallFrame {
   float length;
   Eigen::Isometry3f T_world_wall;
@@ -72,7 +72,7 @@ WallFrame frame_of(std::size_t wall, const Eigen::Vector3f& size) {
 void add_wall(SceneBuilder& builder, const WallDescription& wall, const WallFrame& frame, float height,
               const MaterialIndices& materials) {
   const int material = materials.at(wall.material)[0];
-  // A piece between x0..x1 and z0..z1, its texture going on from piece to piece.
+  // A piece of the wall, x0..x1 and z0..z1. The texture continues from piece to piece.
   auto add_piece = [&](float x0, float x1, float z0, float z1) {
     builder.place(frame.T_world_wall);
     builder.add_quad({x0, 0.0F, z1}, {x1 - x0, 0.0F, 0.0F}, {0.0F, 0.0F, z0 - z1}, material, {x0, height - z1});

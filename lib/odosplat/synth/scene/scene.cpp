@@ -96,7 +96,7 @@ Eigen::Vector3f Scene::radiance(const Ray& ray, const RayHit& hit, float footpri
   const Eigen::Vector3f mirrored = direction - 2.0F * cosine * triangle.normal_world;
   const float grazing = 1.0F - std::abs(cosine);
   const float share = gloss + (1.0F - gloss) * std::pow(grazing, 5.0F);
-  constexpr float offset = 1e-3F;  // [m] keeps the mirrored ray from meeting its own surface
+  constexpr float offset = 1e-3F;  // [m] so that the reflected ray does not hit its own surface
   const Eigen::Vector3f origin = ray.origin + hit.t * ray.direction + offset * mirrored;
   RayHit other;
   const Ray second{origin, mirrored};

@@ -11,23 +11,23 @@
 
 namespace odosplat {
 
-/// What a surface is made of. Diffuse, with an optional mirror part.
+/// The material of a surface: diffuse, with optional specular reflection.
 struct Material {
   int texture = -1;                                // index in the scene; -1: plain
   Eigen::Vector3f tint = Eigen::Vector3f::Ones();  // stored colour 0..1 that the texture is multiplied with
-  float emission = 0.0F;                           // radiance given off, times the colour (lamps, screens)
+  float emission = 0.0F;                           // emitted radiance, multiplied by the colour (lamps, screens)
   float gloss = 0.0F;                              // 0..1 mirror reflectance at normal incidence (Schlick 1994)
   bool fit = false;                                // true: one tile fills the surface; false: tiles are metric
-  bool casts_shadow = true;                        // false: light passes (lampshades, sheer curtains)
+  bool casts_shadow = true;                        // false: light passes through (lampshades, sheer curtains)
 };
 
-/// A part of a scene with coordinates (u, v) in [0, 1]^2 of its own, on which light is stored as a small image.
+/// A part of a scene with its own coordinates (u, v) in [0, 1]^2, on which light is stored as a small image.
 struct ScenePatch {
   int material = 0;
   Eigen::Vector2f tiles = Eigen::Vector2f::Ones();        // texture tiles over the patch, in u and v
   Eigen::Vector2f tile_offset = Eigen::Vector2f::Zero();  // [tiles]
   float texels_per_m = 1.0F;                              // of the texture on this patch
-  int light_width = 0;                                    // texels of the stored light; 0: unlit, colours as they are
+  int light_width = 0;                                    // texels of the stored light; 0: unlit, colours unchanged
   int light_height = 0;
   std::vector<Eigen::Vector3f> light;  // irradiance / pi, linear, row by row; texel centres at (i + 0.5) / size
 };
@@ -39,20 +39,20 @@ struct SceneTriangle {
   int patch = 0;
 };
 
-/// Everything that a scene consists of; SceneBuilder fills it.
+/// The data of a scene, filled by SceneBuilder.
 struct SceneContent {
   std::vector<std::shared_ptr<const Texture>> textures;
   std::vector<Material> materials;
   std::vector<ScenePatch> patches;
   std::vector<SceneTriangle> triangles;
-  std::shared_ptr<const Texture> background;  // over azimuth and elevation, where nothing is hit; none: black
+  std::shared_ptr<const Texture> background;  // over azimuth and elevation, for rays that hit nothing; none: black
   float background_radiance = 1.0F;
   float exposure = 1.0F;
-  bool lit = false;  // false: surfaces show their own colour, with no tone curve
+  bool lit = false;  // false: surfaces have their own colour, without a tone curve
 };
 
-/// A room or another piece of world: triangles with textures and stored soft light. Metres; the world's z axis points
-/// up. Made by SceneBuilder or by the functions of rooms.hpp. Immutable; any number of threads may ask at once.
+/// A room or other environment: triangles with textures and stored soft light. Metres; the world's z axis points up.
+/// Made by SceneBuilder or by the functions of rooms.hpp. Immutable; any number of threads may use it at once.
 class Scene {
  public:
   explicit Scene(SceneContent content);
@@ -64,13 +64,14 @@ class Scene {
                 int hint = -1) const {
     bvh_.closest4(rays, hits, found, hint);
   }
-  /// Whether something that casts a shadow lies on the ray.
+  /// Whether the ray hits a surface that casts a shadow.
   bool occluded(const Ray& ray) const { return bvh_.any(ray); }
 
-  /// Ray parameter of the plane of a hit triangle, in double precision from the ray as given.
+  /// Ray parameter of the plane of a hit triangle, computed in double precision.
   double plane_parameter(int triangle, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  /// Linear R, G, B that comes back along the ray from a hit. footprint_m: width of what one sample stands for [m].
+  /// Linear R, G, B radiance from a hit back along the ray. footprint_m: width [m] of the area that one sample
+  /// represents.
   Eigen::Vector3f radiance(const Ray& ray, const RayHit& hit, float footprint_m) const;
   /// Linear R, G, B of the background in a direction of any length.
   Eigen::Vector3f background(const Eigen::Vector3f& direction) const;

@@ -70,7 +70,7 @@ void SceneBuilder::add_surface(const Surface& surface) {
     for (std::size_t i = 0; i < 3; ++i) triangle.p_world[i] = frame.position(triangle.uv[i].x(), triangle.uv[i].y());
     const auto& p = triangle.p_world;
     const Eigen::Vector3f normal = (p[2] - p[0]).cross(p[1] - p[0]);
-    if (normal.norm() < 1e-12F) return;  // at the poles of closed surfaces a side has no length
+    if (normal.norm() < 1e-12F) return;  // degenerate triangle at the pole of a closed surface
     triangle.normal_world = normal.normalized();
     triangle.patch = patch_index;
     content_.triangles.push_back(triangle);
@@ -157,7 +157,7 @@ void SceneBuilder::add_cushion(const Eigen::Vector3f& centre, const Eigen::Vecto
                                int material, int segments) {
   require(exponent > 0.0F && exponent <= 1.0F, "cushion exponent", "in (0, 1]");
   const float n = 2.0F / exponent;
-  // Six faces of a cube (corner and edges as in add_box) drawn onto |x|^n + |y|^n + |z|^n = 1.
+  // Six faces of a cube (corner and edges as in add_box), projected onto |x|^n + |y|^n + |z|^n = 1.
   struct Face {
     Eigen::Vector3f corner, edge_u, edge_v;
   };

@@ -10,7 +10,7 @@
 namespace odosplat {
 namespace {
 
-constexpr double far = 1000.0;  // [m] no place of a scene lies beyond
+constexpr double far = 1000.0;  // [m] limit for all coordinates of a scene
 
 std::vector<float> numbers_of(const YamlPart& part, std::size_t count, double low, double high) {
   std::vector<float> values = part.numbers(low, high);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t max_text = 4U << 20;
 
-// Keys and messages go into errors of one line.
+// Text for a one-line error: keys and the parser's messages may contain line ends.
 std::string shown(std::string text) {
   text.resize(std::min<std::size_t>(text.size(), 80));
   for (char& c : text) c = static_cast<unsigned char>(c) < 0x20 ? '?' : c;

@@ -11,8 +11,8 @@
 
 namespace odosplat {
 
-/// A part of a YAML text that knows its place in it, for errors such as "room.yaml: walks[2].frames: is not a number".
-/// Internal to this library.
+/// A part of a YAML text with its path, for errors such as "room.yaml: walks[2].frames: is not a number". Internal to
+/// this library.
 class YamlPart {
  public:
   YamlPart(std::string name, const std::string& text);
@@ -20,9 +20,9 @@ class YamlPart {
   [[noreturn]] void fail(const std::string& fault) const { throw InputError(name_, place_, fault); }
 
   bool has(const std::string& key) const;
-  /// A value by its key, which must be there.
+  /// The value of a key, which must exist.
   YamlPart at(const std::string& key) const;
-  /// Keys of a map, in their order; each once.
+  /// Keys of a map, in their order; throws InputError for a repeated key.
   std::vector<std::string> keys() const;
   /// Elements of a list.
   std::vector<YamlPart> items() const;
@@ -32,7 +32,7 @@ class YamlPart {
   int integer(int low, int high) const;
   bool boolean() const;
   std::string text() const;
-  /// A list of numbers, or one number alone.
+  /// A list of numbers; a single number counts as a list of one.
   std::vector<float> numbers(double low, double high) const;
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double radians_a_degree = 3.14159265358979323846 / 180.0;
 
-// Inverse depth across a pixel, along one axis.
+// Change of inverse depth at a pixel along one axis.
 struct Slope {
   double step = 0.0;  // [1/m/px]
   bool edge = false;
@@ -35,7 +35,7 @@ Slope slope(double before, double here, double after, double edge_share) {
   return s;
 }
 
-// Whether the sensor gets an answer from a pixel of the true depth.
+// Whether the sensor measures a depth at a pixel of the true depth.
 bool answers(const DepthImage& ideal, const Camera& camera, const KinectOptions& options, int x, int y) {
   const auto inverse_at = [&](int u, int v) {
     if (u < 0 || u >= ideal.cols || v < 0 || v >= ideal.rows || !(ideal(v, u) > 0.0F)) return 0.0;
@@ -73,7 +73,7 @@ DepthImage sense_kinect_depth(const DepthImage& ideal, const Camera& camera, con
                                         ", the camera " + std::to_string(camera.width) + "x" +
                                         std::to_string(camera.height));
   }
-  const double steps = kinect_focal_px * options.baseline / options.disparity_step;  // disparity of 1 m, in steps
+  const double steps = kinect_focal_px * options.baseline / options.disparity_step;  // disparity at 1 m, in steps
   const double lateral = options.lateral_noise * camera.fx / kinect_focal_px;
   DepthImage out(ideal.size());
   parallel_for(ideal.rows, 16, [&](int begin, int end) {

@@ -12,7 +12,7 @@ namespace odosplat {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr float beam_width = 0.003F;  // [rad] colour is averaged over this
+constexpr float beam_width = 0.003F;  // [rad] width over which colour is averaged
 
 }  // namespace
 
@@ -37,7 +37,7 @@ PointCloud simulate_lidar(const Scene& scene, const std::vector<SE3>& T_world_sc
     std::vector<PointCloud> rings(static_cast<std::size_t>(options.rings));
     parallel_for(options.rings, 1, [&](int begin, int end) {
       for (int ring = begin; ring < end; ++ring) {
-        // Each ring has a stream of its own, so that the points do not depend on who computes which ring.
+        // Each ring has its own random stream, so that the points do not depend on which thread computes which ring.
         Random random(options.seed * 0x9E3779B97F4A7C15ULL + (static_cast<std::uint64_t>(scan) << 20) +
                       static_cast<std::uint64_t>(ring));
         PointCloud& out = rings[static_cast<std::size_t>(ring)];

@@ -11,27 +11,27 @@
 
 namespace odosplat {
 
-/// A scanner that stands still and turns: `rings` beams between two elevations, fired at `columns` azimuths.
+/// A rotating scanner at a fixed position: `rings` beams between two elevations, measured at `columns` azimuths.
 struct LidarOptions {
   int rings = 180;               // 1..4096
-  int columns = 720;             // 1..16384, over the full turn
+  int columns = 720;             // 1..16384, over the full circle
   double elevation_min = -1.05;  // [rad] above the scanner's xy plane, -pi/2..pi/2
   double elevation_max = 1.05;   // [rad] >= elevation_min
-  double range_min = 0.3;        // [m] > 0; nearer things give no point
+  double range_min = 0.3;        // [m] > 0; nearer surfaces give no point
   double range_max = 30.0;       // [m] > range_min
   double range_noise = 0.006;    // [m] standard deviation along the beam, 0..0.5
-  double min_incidence = 0.06;   // cosine between beam and normal below which nothing comes back, 0..1
-  bool colors = true;            // points carry the scene's colour, as a camera beside the scanner sees it
+  double min_incidence = 0.06;   // cosine between beam and normal below which there is no return, 0..1
+  bool colors = true;            // points have the scene's colour, as seen by a camera at the scanner
   std::uint64_t seed = 1;
 
   /// Throws InputError naming the field.
   void check() const;
 };
 
-/// Scans the scene from each pose and joins the points in the world's frame [m], scan by scan, ring by ring. Scanner
-/// frame: x forward (azimuth 0), y left, z up. Range noise is normal and independent from beam to beam; what no beam
-/// reaches, behind furniture, stays void; beams that leave the scene (windows) give no point. Normals are left out, as
-/// scanners give none. No pose: an empty cloud. Deterministic in the seed, whatever the number of threads. Reentrant.
+/// Scans the scene from each pose and merges the points in the world frame [m], scan by scan, ring by ring. Scanner
+/// frame: x forward (azimuth 0), y left, z up. Range noise is normal and independent for each beam. There are no points
+/// on occluded surfaces, nor for beams that leave the scene (windows). There are no normals, as scanners give none.
+/// Without poses the cloud is empty. Deterministic in the seed, whatever the number of threads. Reentrant.
 PointCloud simulate_lidar(const Scene& scene, const std::vector<SE3>& T_world_scanner, const LidarOptions& options);
 
 }  // namespace odosplat

@@ -28,7 +28,7 @@ void ColorSensorOptions::check() const {
 
 AffineBrightness brightness_at(const ColorSensorOptions& options, double time) {
   const double phase = 2.0 * pi * time / options.exposure_period;
-  // The two swing at different rates, so that one does not stand in for the other.
+  // Gain and offset have different periods, so that one cannot compensate for the other.
   return {1.0 + options.exposure_swing * std::sin(phase), options.offset_swing * std::sin(0.7 * phase)};
 }
 
