@@ -83,7 +83,7 @@ int write_synthetic_sequence(const SyntheticSequence& sequence, const std::funct
   if (!missing.empty()) {
     const Scene& world = scene();
     const auto total = static_cast<int>(missing.size());
-    // A thread for each frame, since compressing the files takes time too.
+    // One frame per thread, so that the compression of the files runs in parallel too.
     const int batch = 2 * threads();
     Progress progress("render frames", total);
     for (int first = 0; first < total; first += batch) {

@@ -65,7 +65,8 @@ std::string progress_text(const TrainingStep& step, const TrainingReport& report
 
 std::string checkpoint_file(const TrainJob& job) { return job.out + ".checkpoint"; }
 
-/// Resumes from the last checkpoint if --resume is given and there is one.
+/// Resumes from the last checkpoint if --resume is given and there is one. Without --resume an existing checkpoint is
+/// renamed, not overwritten.
 void take_up(const TrainJob& job, Trainer& trainer) {
   const std::string file = checkpoint_file(job);
   const bool there = std::filesystem::is_regular_file(file);
