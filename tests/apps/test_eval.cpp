@@ -64,8 +64,8 @@ std::string tum(const std::string& stamp, const SE3& T) {
 
 class Eval : public testing::Test {
  protected:
-  // A file of poses of `count` frames from `first` on, moved by 1 cm along x. Times begin at `start` [s] and are written
-  // with `per_second` units per second.
+  // A file of poses of `count` frames from `first` on, moved by 1 cm along x. Times begin at `start` [s] and are
+  // written with `per_second` units per second.
   std::string estimate(int first = 0, int count = frames, double per_second = 1.0, double start = 0.0) {
     std::string text;
     for (int k = first; k < first + count; ++k) {
