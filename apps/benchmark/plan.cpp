@@ -3,12 +3,12 @@
 #include "apps/benchmark/plan.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 
 #include "apps/benchmark/method_recipes.hpp"
 #include "apps/benchmark/protocol.hpp"
+#include "odosplat/core/number_text.hpp"
 #include "odosplat/io/sequence/sequence.hpp"
 
 namespace odosplat::apps {
@@ -18,12 +18,6 @@ namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
 void append(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
-
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%g", value);
-  return text;
-}
 
 std::string replaced(std::string text, const std::map<std::string, std::string>& values) {
   for (const auto& [key, value] : values) {
@@ -169,14 +163,15 @@ class Planner {
                      "--cloud",  job.outputs[0]};
     } else if (!scene.cloud.empty()) {
       const std::string file = existing_path(suite_.folder, scene.cloud, "the cloud of scene " + scene.name);
-      job.command = {"odosplat",          "cloud", "--from",      fs::absolute(file).string(), "--voxel",
-                     number(scene.voxel), "--out", job.outputs[0]};
+      job.command = {
+          "odosplat", "cloud",       "--from", fs::absolute(file).string(), "--voxel", number_text(scene.voxel),
+          "--out",    job.outputs[0]};
     } else {
       const Sources made_of = sources(tested);
       job.command = {"odosplat", "cloud"};
       append(job.command, made_of.paths);
-      append(job.command, {"--every", std::to_string(mapping_step), "--voxel", number(scene.voxel), "--noise",
-                           number(scene.noise), "--out", job.outputs[0]});
+      append(job.command, {"--every", std::to_string(mapping_step), "--voxel", number_text(scene.voxel), "--noise",
+                           number_text(scene.noise), "--out", job.outputs[0]});
       if (!made_of.frames.empty()) append(job.command, {"--frames", made_of.frames});
       job.needs = made_of.jobs;
     }

@@ -21,5 +21,6 @@ int main(int argc, char** argv) {
   accuracy::add_confirm(app, common);
   accuracy::add_deceive(app, common);
   accuracy::add_disturb(app, common);
+  accuracy::add_ablate(app, common);
   return apps::run_program(app, argc, argv);
 }

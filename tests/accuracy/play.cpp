@@ -34,10 +34,10 @@ Script in_order(const World& world, std::size_t begin, std::size_t end,
 }
 
 Run play(const World& world, MapView& map, SensorView* sensor, const apps::TrackJob& job, const Script& script,
-         const SE3& T_world_camera_start, const std::string& label, const Camera& told) {
+         const SE3& T_world_camera_start, const std::string& label, const Camera& told, const OptionEdit& edit) {
   Run run;
   run.frames.resize(script.size());  // allocated before the odometry, whose memory use is measured
-  const Localiser localiser = make_localiser(told, map, sensor != nullptr, job, T_world_camera_start);
+  const Localiser localiser = make_localiser(told, map, sensor != nullptr, job, T_world_camera_start, edit);
   Odometry& odometry = *localiser.odometry;
   Progress progress(label, static_cast<long>(script.size()));
   double cpu = 0.0;
@@ -71,9 +71,9 @@ Run play(const World& world, MapView& map, SensorView* sensor, const apps::Track
 }
 
 Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job, const Script& script,
-         const std::string& label) {
+         const std::string& label, const OptionEdit& edit) {
   return play(world, *opened.view, opened.sensor, job, script, world.T_world_camera(script.at(0).frame), label,
-              world.camera());
+              world.camera(), edit);
 }
 
 Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job, const Script& script,

@@ -45,9 +45,10 @@ struct Run {
 };
 
 /// Plays a script to a new odometry. sensor: receives each frame's depth image for method rgbd, null for other methods.
-/// label: for progress lines. told: camera model that the odometry is given. Throws Interrupted after Ctrl-C.
+/// label: for progress lines. told: camera model that the odometry is given. edit: changes the odometry's options.
+/// Throws Interrupted after Ctrl-C.
 Run play(const World& world, MapView& map, SensorView* sensor, const apps::TrackJob& job, const Script& script,
-         const SE3& T_world_camera_start, const std::string& label, const Camera& told);
+         const SE3& T_world_camera_start, const std::string& label, const Camera& told, const OptionEdit& edit = {});
 
 /// The same in the world's map; `told` computes the camera model for the odometry from the world's.
 Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job, const Script& script,
@@ -55,6 +56,6 @@ Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job
 
 /// The same in the world's map, with the true camera model and the true pose of the first step as start.
 Run play(const World& world, apps::OpenedView& opened, const apps::TrackJob& job, const Script& script,
-         const std::string& label);
+         const std::string& label, const OptionEdit& edit = {});
 
 }  // namespace odosplat::accuracy

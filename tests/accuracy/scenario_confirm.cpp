@@ -14,7 +14,7 @@
 #include "odosplat/odometry/frame/motion_model.hpp"
 #include "odosplat/odometry/frame/tracking_reference.hpp"
 #include "odosplat/odometry/relocalise/place_index.hpp"
-#include "tests/accuracy/disturb_image.hpp"
+#include "tests/accuracy/disturb/disturb_image.hpp"
 #include "tests/accuracy/output.hpp"
 #include "tests/accuracy/scenarios.hpp"
 

@@ -9,7 +9,7 @@
 #include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/odometry/relocalise/place_index.hpp"
-#include "tests/accuracy/disturb_image.hpp"
+#include "tests/accuracy/disturb/disturb_image.hpp"
 #include "tests/accuracy/output.hpp"
 #include "tests/accuracy/scenarios.hpp"
 

@@ -18,5 +18,6 @@ void add_kidnap(CLI::App& app, apps::Common& common);
 void add_confirm(CLI::App& app, apps::Common& common);
 void add_deceive(CLI::App& app, apps::Common& common);
 void add_disturb(CLI::App& app, apps::Common& common);
+void add_ablate(CLI::App& app, apps::Common& common);
 
 }  // namespace odosplat::accuracy

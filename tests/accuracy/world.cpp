@@ -38,9 +38,11 @@ World::World(const Job& job) : sequence_(apps::open_sequence(job.track.sequence)
 }
 
 Localiser make_localiser(const Camera& camera, MapView& map, bool sensor, const apps::TrackJob& job,
-                         const SE3& T_world_camera_start) {
+                         const SE3& T_world_camera_start, const OptionEdit& edit) {
   Localiser made;
-  made.odometry = std::make_unique<Odometry>(camera, map, apps::odometry_options(job), T_world_camera_start);
+  OdometryOptions options = apps::odometry_options(job);
+  if (edit) edit(options);
+  made.odometry = std::make_unique<Odometry>(camera, map, options, T_world_camera_start);
   made.relocalizer = apps::make_relocalizer(job, camera, map, sensor);
   made.odometry->set_relocalizer(made.relocalizer.get());
   return made;

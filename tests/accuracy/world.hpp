@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -60,9 +61,12 @@ struct Localiser {
   std::unique_ptr<Odometry> odometry;
 };
 
+/// Changes the options that a job specifies; empty: no change.
+using OptionEdit = std::function<void(OdometryOptions&)>;
+
 /// The only function of these tests that creates it. map must outlive it; sensor: map shows the depth images of a
 /// sensor.
 Localiser make_localiser(const Camera& camera, MapView& map, bool sensor, const apps::TrackJob& job,
-                         const SE3& T_world_camera_start);
+                         const SE3& T_world_camera_start, const OptionEdit& edit = {});
 
 }  // namespace odosplat::accuracy

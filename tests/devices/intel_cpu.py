@@ -16,9 +16,11 @@ import shutil
 import subprocess
 import sys
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+from venv_packages import python_with, SKIPPED  # noqa: E402
+
 # The first does not declare the second as a dependency, but its compiler loads libsvml and libimf from it.
 PACKAGES = ["intel-opencl-rt==2026.2.0", "intel-cmplr-lib-rt==2026.2.0"]
-SKIPPED = 77
 
 
 def vendors(venv):
@@ -39,15 +41,7 @@ def install(venv):
         return SKIPPED
     if installed(venv):
         return 0
-    python = os.path.join(venv, "bin", "python")
-    try:
-        if not os.path.exists(python):
-            subprocess.run([sys.executable, "-m", "venv", venv], check=True, capture_output=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PACKAGES], check=True,
-                       capture_output=True, timeout=600)
-    except (subprocess.SubprocessError, OSError) as error:
-        print(f"skipped: {', '.join(PACKAGES)} cannot be installed: {error}")
-        return SKIPPED
+    python_with(venv, PACKAGES, seconds=600)
     # The package's OpenCL loader would be found before the system's, and it searches for vendors in another place.
     aside = os.path.join(venv, "loader")
     os.makedirs(aside, exist_ok=True)

@@ -16,8 +16,10 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+from venv_packages import python_with, SKIPPED  # noqa: E402
+
 EVO = "evo==1.38.1"
-SKIPPED = 77
 # name, ground truth, estimate; KITTI files contain matrices without times.
 SETS = [
     ("fr2_desk_orb", "fr2_desk_groundtruth.txt", "fr2_desk_ORB.txt"),
@@ -73,19 +75,6 @@ def evo_figures(folder):
                     "rte_m": summary(metrics.RPE(metrics.PoseRelation.translation_part, **relative), data),
                     "rre_deg": summary(metrics.RPE(metrics.PoseRelation.rotation_angle_deg, **relative), data)})
     return cases
-
-
-def python_with_evo(folder):
-    python = os.path.join(folder, "bin", "python")
-    try:
-        if not os.path.exists(python):
-            subprocess.run([sys.executable, "-m", "venv", folder], check=True, capture_output=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", EVO], check=True,
-                       capture_output=True, timeout=300)
-    except (subprocess.SubprocessError, OSError) as error:
-        print(f"skipped: {EVO} cannot be installed: {error}")
-        sys.exit(SKIPPED)
-    return python
 
 
 def header_text(cases):
@@ -152,7 +141,7 @@ def main():
     if not os.path.exists(os.path.join(options.data, SETS[0][1])):
         print(f"skipped: no trajectories in {options.data}")
         return SKIPPED
-    python = python_with_evo(options.venv)
+    python = python_with(options.venv, [EVO])
     environment = dict(os.environ, HOME=options.venv)  # evo writes settings into the home folder
     with tempfile.TemporaryDirectory() as scratch:
         figures = os.path.join(scratch, "figures.json")

@@ -17,22 +17,11 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+from venv_packages import python_with, SKIPPED  # noqa: E402
+
 WRITERS = ["laspy==2.6.1", "plyfile==1.1.5", "pycolmap==3.12.5"]
-SKIPPED = 77
 COUNT = 200
-
-
-def python_with_writers(folder):
-    python = os.path.join(folder, "bin", "python")
-    try:
-        if not os.path.exists(python):
-            subprocess.run([sys.executable, "-m", "venv", folder], check=True, capture_output=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"] + WRITERS, check=True,
-                       capture_output=True, timeout=300)
-    except (subprocess.SubprocessError, OSError) as error:
-        print(f"skipped: {', '.join(WRITERS)} cannot be installed: {error}")
-        sys.exit(SKIPPED)
-    return python
 
 
 def made_cloud():
@@ -226,7 +215,7 @@ def main():
     options = parser.parse_args()
     if options.worker:
         return compare(options.odosplat, options.worker)
-    python = python_with_writers(options.venv)
+    python = python_with(options.venv, WRITERS)
     with tempfile.TemporaryDirectory() as scratch:
         return subprocess.run([python, os.path.abspath(__file__), "--odosplat", os.path.abspath(options.odosplat), "--venv",
                                options.venv, "--worker", scratch], check=False).returncode

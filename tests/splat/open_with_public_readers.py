@@ -19,23 +19,12 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+from venv_packages import python_with, SKIPPED  # noqa: E402
+
 READERS = ["plyfile==1.1.5", "gsply==0.4.6"]
-SKIPPED = 77
 COUNT = 200
 SH_CONSTANT = 0.28209479177387814
-
-
-def python_with_readers(folder):
-    python = os.path.join(folder, "bin", "python")
-    try:
-        if not os.path.exists(python):
-            subprocess.run([sys.executable, "-m", "venv", folder], check=True, capture_output=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"] + READERS, check=True,
-                       capture_output=True, timeout=300)
-    except (subprocess.SubprocessError, OSError) as error:
-        print(f"skipped: {' and '.join(READERS)} cannot be installed: {error}")
-        sys.exit(SKIPPED)
-    return python
 
 
 def float32(value):
@@ -153,7 +142,7 @@ def main():
         return compare(options.worker)
     if not options.odosplat or not options.venv:
         parser.error("--odosplat and --venv are needed")
-    python = python_with_readers(options.venv)
+    python = python_with(options.venv, READERS)
     with tempfile.TemporaryDirectory() as scratch:
         def path(name):
             return os.path.join(scratch, name)

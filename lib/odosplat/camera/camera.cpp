@@ -2,10 +2,10 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/camera/camera.hpp"
 
-#include <cstdio>
 #include <string>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/number_text.hpp"
 
 namespace odosplat {
 namespace {
@@ -14,28 +14,22 @@ void require_size(const char* name, int size) {
   if (size < 1 || size > 32768) throw InputError(name, "must be in 1..32768, is " + std::to_string(size));
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", value);
-  return text;
-}
-
 // A thousandth of the image: 179.9 degrees from border to border. 1e6 pixels: images of 32768 see 2 degrees.
 constexpr double least_focal_share = 1e-3;
 constexpr double most_focal = 1e6;
 
 void require_focal(const char* name, double f, int size) {
-  if (!(f > 0.0)) throw InputError(name, "must be positive, is " + number(f));
+  if (!(f > 0.0)) throw InputError(name, "must be positive, is " + number_text(f));
   const double least = least_focal_share * size;
   if (f >= least && f <= most_focal) return;
-  throw InputError(name, "must be in " + number(least) + ".." + number(most_focal) + " for an image of " +
-                             std::to_string(size) + " px, is " + number(f));
+  throw InputError(name, "must be in " + number_text(least) + ".." + number_text(most_focal) + " for an image of " +
+                             std::to_string(size) + " px, is " + number_text(f));
 }
 
 // As far from the image as one that is cut out of the largest has its centre.
 void require_center(const char* name, double c, int size) {
   if (c >= -32768.0 && c <= size + 32768.0) return;
-  throw InputError(name, "must be within 32768 px of the image, is " + number(c));
+  throw InputError(name, "must be within 32768 px of the image, is " + number_text(c));
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TrackResult Odometry::track(const GrayImage& image, double time, std::shared_ptr
   } else if (!T_world_camera_start_) {
     relocalise(image, request, result);
   } else {
-    // Until the first keyframe stands, the camera is where the caller said.
+    // Until there is a keyframe, the camera is at the caller's start pose.
     request.T_world_camera = *T_world_camera_start_;
     const bool made = make_keyframe(request, result);
     if (made && !stands(keyframe_evidence_, keyframe_misfit_, true)) {
@@ -216,7 +216,7 @@ bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request
   constexpr int every = 5;
   const int before = lost_in_a_row_++;
   if (relocalizer_ == nullptr || (before >= eager && before % every != 0)) return false;
-  finish();  // the map is ours from here on
+  finish();  // from here on no other thread uses the map
   Relocalization answer;
   {
     const StageTimer timer(stages_[stage_relocalise]);
@@ -235,7 +235,7 @@ bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request
   afresh.brightness = {};
   afresh.fresh = true;
   TrackResult made;
-  front_.lose();  // how the camera came here is not known, nor what was believed of this frame
+  front_.lose();  // the motion that led here is unknown, and the estimates for this frame do not hold
   if (!make_keyframe(afresh, made) || !stands(keyframe_evidence_, keyframe_misfit_, true)) return false;
   result.evidence = keyframe_evidence_;
   result.misfit = made.misfit;
@@ -252,7 +252,7 @@ bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request
 void Odometry::finish() { take_over(keyframes_->wait()); }
 
 bool Odometry::make_keyframe(const KeyframeRequest& request, TrackResult& result) {
-  // With nothing to track against meanwhile, there is nothing to do but wait.
+  // Without a keyframe to track against, the result has to be waited for.
   const std::optional<FinishedKeyframe> finished = keyframes_->make(request, front_.empty() || request.fresh);
   take_over(finished);
   if (!finished || !finished->outcome.made) return false;

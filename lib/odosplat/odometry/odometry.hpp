@@ -31,36 +31,39 @@ struct OdometryOptions {
   ActivationOptions activation;
   DriftOptions drift;
   AcceptOptions accept;
-  /// Neighbouring pixels err alike, and a map's colours are off by parts of a pixel for a whole view; normal equations
-  /// know nothing of either. A frame's covariance is that of its alignment with its keyframe times the first, plus its
-  /// keyframe's in the window times the second. docs/rules.md has the mean normalised error squared, of which 6 is
-  /// right.
+  /// The errors of neighbouring pixels are correlated, and a map's colours are displaced by a fraction of a pixel over
+  /// a whole view; the normal equations take residuals as independent. A frame's covariance is therefore the first
+  /// factor times that of its alignment with its keyframe, plus the second factor times its keyframe's covariance, plus
+  /// that of the camera's misfit (MisfitEffect). docs/rules.md has the mean normalised error squared that the factors
+  /// give; 6 is the right value.
   double frame_covariance_factor = 1.0;
   double keyframe_covariance_factor = 40.0;
-  /// Real time: keyframes are made on a thread of their own, while track() goes on with the keyframes that stand.
-  /// Which frame sees which keyframe then depends on the clock. false: track() makes them itself; same input, same
+  /// Real time: keyframes are made on a thread of their own, while track() goes on with the existing keyframes. Which
+  /// frame is tracked against which keyframe then depends on timing. false: track() makes them itself; same input, same
   /// bits.
   bool background = false;
-  /// background: the map is rendered ahead, at the pose where the next keyframe is expected, this many images before.
-  /// Two images ahead constant velocity is mostly right to 2 px, three ahead less often (docs/rules.md).
+  /// With background: the map is rendered this many images before the next keyframe is expected, at the pose predicted
+  /// for it. The prediction by constant velocity is mostly right to 2 px two images ahead, less often three images
+  /// ahead (docs/rules.md).
   double prefetch_images = 2.0;
-  /// Frames about which the map says nothing, beyond which a pose no longer counts as one in the map.
+  /// A pose where the map cannot be compared counts as in the map only up to this many frames after the last confirmed
+  /// one.
   int max_unconfirmed = 10;
-  /// A pose is refused where a wrong camera seems to have moved it by more than this: from there on, what is estimated
-  /// of the camera is itself too rough to stand in a covariance.
+  /// A pose is refused if errors of the camera's calibration seem to have moved it by more than this: the estimate of
+  /// larger errors is too rough to be expressed as a covariance.
   double max_misfit_translation = 0.05;  // [m]
   double max_misfit_rotation = 0.04;     // [rad]
 
   void check() const;
 };
 
-/// ok: tracked on from the last images. relocalised: found without them, after a loss or at a start whose pose is not
-/// known or wrong.
+/// ok: tracked from the images before. relocalised: found without them, after a loss, or at a start whose pose is
+/// unknown or wrong.
 enum class TrackStatus { ok, lost, relocalised };
 /// "ok", "lost", "relocalised".
 std::string to_string(TrackStatus status);
 
-/// What became of one image. T_world_camera is the pose as known now; Odometry::trajectory() has the final one.
+/// The result for one image. T_world_camera is the current estimate; Odometry::trajectory() has the final one.
 struct TrackResult {
   TrackStatus status = TrackStatus::lost;
   SE3 T_world_camera;                      // identity when lost: no pose is made up
@@ -71,14 +74,16 @@ struct TrackResult {
   double rmse = 0.0;          // [grey] of the inliers
   double correlation = 0.0;   // of the image with the reference keyframe at its points, -1..1
   double map_share = 0.0;     // share of the image where the map has depth, of the last that was tried as keyframe
-  /// What the map says about the pose; Confirmation::none where it was not asked, as in maps without colours.
+  /// How the image compares with the map at this pose; Confirmation::none where it was not compared, as with maps
+  /// without colours.
   MapEvidence evidence;
-  /// The last keyframe has its depth from the map, and the map has confirmed this pose, or says nothing about it and
-  /// has confirmed one of the options.max_unconfirmed before (a map without colours is believed as it is). false: plain
-  /// odometry.
+  /// True if the last keyframe has its depth from the map, and the map confirms this pose, or cannot be compared here
+  /// but has confirmed one of the last options.max_unconfirmed frames. A map without colours needs no confirmation.
+  /// false: plain odometry.
   bool in_map = false;
-  bool anchored = false;  // a keyframe that the map's colours hold in place, or keyframes that these held before
-  double misfit = 0.0;  // [m] how far a camera that is not quite right seems to have moved the pose; in its covariance
+  bool anchored = false;  // a keyframe aligned with the map's colours, or with remembered keyframes that were
+  double misfit = 0.0;    // [m] how far errors of the camera's calibration seem to have moved the pose; part of its
+                          // covariance
   double milliseconds = 0.0;
 };
 
@@ -93,19 +98,21 @@ struct OdometryStatistics {
   int anchored = 0;
   int prefetched = 0;        // keyframes made from a view that was rendered ahead
   int confirmed = 0;         // posed frames that the map has confirmed
-  std::string likely_cause;  // what is wrong with the camera, by its keyframes; empty: nothing that stands out
-  int refused = 0;  // frames that were tracked but that the map spoke against, or did not confirm where it had to
+  std::string likely_cause;  // what is probably wrong with the camera, estimated from keyframes; empty: nothing
+                             // significant
+  int refused = 0;  // frames that were tracked, but contradicted by the map, not confirmed where that was needed, or
+                    // moved too far by errors of the camera's calibration
 };
 
 /// Direct sparse odometry in a prior map: every image gets its pose in the map's frame.
 /// Source: the paper's local odometry (direct tracking against the last keyframe, sliding window of keyframes, depth of
 /// keyframe points rendered from the map); Engel et al. 2018 (DSO) for selection, residuals and keyframe rule. Differs:
-/// points keep to the map's planes when their keyframe moves, and every keyframe is also aligned with the map's
-/// rendered image, which removes drift; no intrinsics are estimated; no null space is projected out. Where the map
-/// shows nothing, points are found by motion and the camera goes on as in plain odometry. Images must come in order of
-/// time. Never prints, reads no files. Not thread safe; uses parallel_for inside, with the same bits for any number of
-/// threads. With options.background the map belongs to a thread of the odometry's own, from construction until finish()
-/// or destruction, and what the map throws there comes out of a later call of track() or of finish().
+/// points stay on the map's planes when their keyframe moves, and every keyframe is also aligned with the map's
+/// rendered image, which removes drift; no intrinsics are estimated; no null space is projected out.
+/// Where the map shows nothing, the depth of points is found by motion, as in odometry without a map. Images must come
+/// in order of time. Never prints, reads no files. Not thread safe; uses parallel_for inside, with the same bits for
+/// any number of threads. With options.background the map belongs to a thread of the odometry's own from construction
+/// until finish() or destruction, and exceptions thrown there are rethrown by a later call of track() or finish().
 class Odometry {
  public:
   /// map must outlive this. T_world_camera_start: the camera's pose at the first image. Throws InputError on bad
@@ -119,14 +126,16 @@ class Odometry {
   /// For a start pose that is not known: images are looked up until one is found. relocalizer: as for set_relocalizer.
   Odometry(const Camera& camera, MapView& map, const OdometryOptions& options, Relocalizer& relocalizer);
 
-  /// Looks up images in the map (same camera) once tracking is lost and no keyframe of the window fits: each of the
-  /// first 15, then every fifth; and the first keyframes' until the map confirms the start pose. It must outlive this;
-  /// null: the window is all that is searched. With options.background a look-up waits for the keyframe in the making.
+  /// Sets the relocalizer (for the same camera), which must outlive this; null: only the window is searched. It looks
+  /// up images once tracking is lost and no keyframe of the window fits: each of the first 15, then every fifth. It
+  /// also looks up frames that the map contradicts, frames that must be confirmed and are not, as the first ones after
+  /// a wrong start pose, and frames that suddenly fit worse. With options.background a look-up waits for the keyframe
+  /// in the making.
   void set_relocalizer(Relocalizer* relocalizer) { relocalizer_ = relocalizer; }
 
-  /// Finds the camera of the next image (the camera's size, grey 0..1, else InputError) taken at `time` [s]. view: what
-  /// to look at in the map's place if this image becomes a keyframe, as with a depth sensor that came with the image;
-  /// null: the map. With options.background this returns without waiting for the map once the first keyframe stands.
+  /// Finds the camera of the next image (the camera's size, grey 0..1, else InputError) taken at `time` [s]. view:
+  /// rendered in place of the map if this image becomes a keyframe, for example a depth sensor's image; null: the map.
+  /// With options.background this returns without waiting for the map once there is a keyframe.
   TrackResult track(const GrayImage& image, double time, std::shared_ptr<MapView> view = nullptr);
 
   /// With options.background: waits for the keyframe in the making and takes it over. Else does nothing.
@@ -145,17 +154,17 @@ class Odometry {
  private:
   /// Tracks the image of `request` against the keyframes, and asks for a keyframe where one is due.
   void follow(const GrayImage& image, KeyframeRequest& request, TrackResult& result);
-  /// Looks the image up; where found, the window starts afresh from there. False: not found, not tried, or found where
-  /// tracking has it (T_world_tracked).
+  /// Looks the image up; if it is found, the window starts anew from there. False: not found, not tried, or found at
+  /// the pose that tracking gave (T_world_tracked).
   bool relocalise(const GrayImage& image, const KeyframeRequest& request, TrackResult& result,
                   const std::optional<SE3>& T_world_tracked = std::nullopt);
-  /// Whether a pose may stand, by what the map says about it. to_be_confirmed: it does not follow from a pose that the
-  /// map has confirmed.
+  /// Whether a pose is accepted, by its comparison with the map. to_be_confirmed: the pose does not continue from one
+  /// that the map has confirmed, so that it needs to be confirmed itself.
   bool stands(const MapEvidence& evidence, const MisfitEffect& misfit, bool to_be_confirmed) const;
-  /// Takes a tracked pose back, for what the map says about it, and looks the image up.
+  /// Discards a tracked pose because of its comparison with the map, and looks the image up.
   void refuse(const GrayImage& image, const KeyframeRequest& request, TrackResult& result, const MapEvidence& evidence);
-  /// Whether a posed frame counts as in the map. Where it does not although its keyframe's depth is the map's, its
-  /// covariance grows as that of keyframes outside does.
+  /// Decides whether a posed frame counts as in the map. If it does not although its keyframe has the map's depth,
+  /// drift is added to its covariance as for keyframes outside the map.
   void judge(TrackResult& result);
   /// Asks for a keyframe and writes it into the result. False: there is none, or not yet.
   bool make_keyframe(const KeyframeRequest& request, TrackResult& result);
@@ -176,10 +185,10 @@ class Odometry {
   bool in_map_ = false;            // of the last keyframe
   bool rendered_ahead_ = false;
   Relocalizer* relocalizer_ = nullptr;
-  int lost_in_a_row_ = 0;                      // images that show something
+  int lost_in_a_row_ = 0;                      // since the last posed image; blank images are not counted
   int unconfirmed_ = 0;                        // posed frames since the map has confirmed one
-  bool to_be_confirmed_ = false;               // the map spoke against the last keyframe
-  std::unique_ptr<KeyframeWorker> keyframes_;  // last: it uses the back end until it is gone
+  bool to_be_confirmed_ = false;               // the map contradicted the last keyframe
+  std::unique_ptr<KeyframeWorker> keyframes_;  // declared last: it uses the back end until it is destroyed
 };
 
 }  // namespace odosplat

@@ -18,8 +18,8 @@ std::vector<TrajectoryRecord::Frame>::iterator TrajectoryRecord::frame_at(double
 int TrajectoryRecord::add_keyframe(double time, const SE3& T_world_camera, bool found_again) {
   const int id = static_cast<int>(keyframes_.size());
   Keyframe keyframe{time, T_world_camera, -1, {}};
-  // The frame's own record moves over to its keyframe: its pose is the keyframe's from now on. It is the newest, or a
-  // few frames back where the back end took its time.
+  // The frame is assigned to its own keyframe, so that its pose is the keyframe's. It is the newest frame, or a few
+  // frames old if the back end was slow.
   const auto at = frame_at(time);
   if (at != frames_.end() && at->time == time) {
     const int previous = at->keyframe;
@@ -56,7 +56,7 @@ void TrajectoryRecord::move_keyframe(int keyframe, const SE3& T_world_camera) {
 }
 
 Trajectory TrajectoryRecord::compose() const {
-  // Keyframe that was tracked against keyframe k, if any: the far end of the frames that belong to k.
+  // Keyframe that was tracked against keyframe k, if any: it ends the interval of the frames that belong to k.
   std::vector<int> next(keyframes_.size(), -1);
   for (std::size_t id = 0; id < keyframes_.size(); ++id) {
     const int previous = keyframes_[id].previous;
@@ -71,8 +71,8 @@ Trajectory TrajectoryRecord::compose() const {
     if (far >= 0) {
       const Keyframe& end = keyframes_[static_cast<std::size_t>(far)];
       const double share = (frame.time - host.time) / (end.time - host.time);
-      // The correction is a motion of the camera in its own frame: a small turn must not swing it about the world's
-      // origin.
+      // The correction is a motion in the camera's own frame: applied in the world's frame, a small rotation would move
+      // the camera about the world's origin.
       const SE3 correction = (host.T_world_camera * end.T_previous_camera).inverse() * end.T_world_camera;
       if (share > 0.0 && share < 1.0) T_world_camera = T_world_camera * SE3::exp(share * correction.log());
     }

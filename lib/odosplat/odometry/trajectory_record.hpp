@@ -8,23 +8,23 @@
 
 namespace odosplat {
 
-/// Every posed frame relative to the keyframe that it was tracked against, and every keyframe's latest pose: together
-/// the final trajectory, however the keyframes were moved after their frames had passed. Keyframes are counted from 0
-/// in the order of add_keyframe.
+/// Every posed frame relative to the keyframe that it was tracked against, and every keyframe's latest pose. Composed,
+/// they give the final trajectory, with all corrections that keyframes received after their frames were tracked.
+/// Keyframes are counted from 0 in the order of add_keyframe.
 class TrajectoryRecord {
  public:
   /// Frames come in order of time. found_again: the frames before it were lost.
   void add_frame(double time, int keyframe, const SE3& T_keyframe_camera, bool found_again = false);
 
-  /// A frame has become the next keyframe, with T_world_camera as first estimate. If the frame was added before, its
-  /// place against its own keyframe is kept as the far end of that keyframe's frames, unless the camera was lost in
-  /// between or found_again says that it was found anew. Frames that came after it and were tracked against the same
-  /// keyframe as it was are the new keyframe's from now on, where they stood relative to it. Returns the keyframe's
+  /// The frame at `time` has become the next keyframe, with T_world_camera as first estimate. If the frame was added
+  /// before, its tracked pose relative to its own keyframe is kept, for compose() to spread corrections between the
+  /// two, unless the camera was lost in between or found_again is set. Later frames that were tracked against the same
+  /// keyframe as this frame are assigned to the new keyframe, with their poses relative to it. Returns the keyframe's
   /// number.
   int add_keyframe(double time, const SE3& T_world_camera, bool found_again = false);
 
-  /// The frame of that time has no pose after all: it is left out of the trajectory. If it has become a keyframe,
-  /// frames may still belong to that. Nothing if there is no such frame.
+  /// Removes the frame of that time from the trajectory. If it has become a keyframe, the keyframe stays, as frames may
+  /// belong to it. Does nothing if there is no such frame.
   void withdraw(double time);
 
   void move_keyframe(int keyframe, const SE3& T_world_camera);

@@ -10,7 +10,7 @@
 namespace odosplat {
 namespace {
 
-constexpr std::size_t most_in = 10;  // of so many rows one may be broken
+constexpr std::size_t most_in = 10;  // of this many rows at most one may be broken
 
 void keep_rows(const std::vector<bool>& is_broken, std::size_t width, std::vector<float>& values) {
   auto to = values.begin();

@@ -10,18 +10,18 @@
 
 namespace odosplat {
 
-/// Gaussians of a file that hold a value which is none, or which no device can draw (undrawable_value), as programs
-/// leave them behind where training diverged: a few are left out, many make the file worthless.
+/// Gaussians of a file with an invalid value, or one that no device can draw (undrawable_value), such as programs write
+/// after training has diverged: a few are left out, many make the file invalid.
 class BrokenRows {
  public:
   /// `name` stands for the file in messages, `count` is its number of Gaussians.
   BrokenRows(std::string name, std::size_t count) : name_(std::move(name)), is_broken_(count) {}
 
-  /// Says what is wrong with Gaussian i, from 0; the first fault said is the one that is shown.
+  /// Marks Gaussian i, from 0, as broken; messages show the first fault that was added.
   void add(std::size_t i, const std::string& fault);
 
-  /// Adds those that cannot be drawn, and takes all out of `gaussians`, which has all rows, with one warning.
-  /// InputError(file, "Gaussian N", fault) if they are more than a tenth.
+  /// Marks those that cannot be drawn, too, and removes all marked ones from `gaussians`, which has all rows, with one
+  /// warning. InputError(file, "Gaussian N", fault) if they are more than a tenth.
   void leave_out(Gaussians& gaussians);
 
  private:

@@ -26,20 +26,20 @@ struct GaussianViewOptions {
 /// "expected", "median", "blended" or "surface"; InputError else.
 DepthMode depth_mode(const std::string& name);
 
-/// A trained map of Gaussians, looked at from any pose.
+/// A trained map of Gaussians, rendered from any pose.
 /// depth [m] as depth_mode says, 0 where alpha < min_alpha. color 0..1 on black, not divided by alpha.
-/// sigma [m] by the sigma model, 0 where depth is 0; of median and blended depth, which have no mean to spread around,
-/// the share of depth alone. The Gaussians may be none: images of zeros. Frame: world of the Gaussians. Throws
-/// InputError for bad options, Gaussians or camera. Contract of MapView otherwise.
+/// sigma [m] by the sigma model, 0 where depth is 0; for median and blended depth, which have no mean that a spread
+/// could be taken around, only the model's share of depth. Without Gaussians all images are zero. Frame: world of the
+/// Gaussians. Throws InputError for bad options, Gaussians or camera. Contract of MapView otherwise.
 class GaussianView : public MapView {
  public:
-  /// As the map's header says: order of blending, sigma.
+  /// With the order of blending, the other options of rasterisation and the sigma model of the map's header.
   GaussianView(const compute::Context& context, const Map& map, DepthMode depth_mode = DepthMode::surface);
   /// Gaussians without a header, such as those in training.
   GaussianView(const compute::Context& context, const Gaussians& gaussians, const GaussianViewOptions& options);
 
   ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override;
-  /// Composites those pixels only (Rasterizer::forward_pixels). sigma is without the term of the slope.
+  /// Composites those pixels only (Rasterizer::forward_pixels). sigma lacks the term of the slope.
   ViewImages render_pixels(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request,
                            const std::vector<cv::Point>& pixels) override;
   std::string name() const override { return "gaussian"; }

@@ -18,9 +18,11 @@ constexpr int sh_coefficients(int degree) { return (degree + 1) * (degree + 1); 
 /// Source: Kerbl et al. 2023. All arrays are flat, Gaussian after Gaussian, in float32.
 ///   positions       [N x 3]      world frame [m]
 ///   log_scales      [N x 3]      ln of the standard deviations along the Gaussian's own axes [ln m]
-///   rotations       [N x 4]      w x y z, world <- own axes, of any length but zero (a Gaussian of length 0 is not
-///   drawn) opacity_logits  [N]          opacity = 1 / (1 + exp(-logit)) sh              [N x K x 3]  colour = max(0,
-///   0.5 + sum_k basis_k(direction) sh[k]), K = sh_coefficients(sh_degree);
+///   rotations       [N x 4]      w x y z, world <- own axes, of any length but zero
+///                                (a Gaussian of length 0 is not drawn)
+///   opacity_logits  [N]          opacity = 1 / (1 + exp(-logit))
+///   sh              [N x K x 3]  colour = max(0, 0.5 + sum_k basis_k(direction) sh[k]),
+///                                K = sh_coefficients(sh_degree);
 ///                                direction: unit vector, world frame, from the camera to the Gaussian
 /// An empty set is valid. check() throws InputError if sizes disagree or sh_degree is outside 0..3.
 struct Gaussians {
@@ -41,22 +43,23 @@ struct Gaussians {
 /// The largest values that the kernels' single precision can carry; a Gaussian beyond one of them is never drawn, or
 /// spoils the pixels that it touches.
 namespace gaussian_limits {
-/// Of a coordinate [m]: floats go by steps of 1 m there, and nothing is drawn at 1e6 m from the camera or farther.
+/// Of a coordinate [m]: the spacing of floats is 1 m there, and nothing is drawn at 1e6 m from the camera or farther.
 constexpr float place = 1e7F;
 /// Of a standard deviation [ln m]: 1e6 m. Its projection is (f e^s / z)^4 in a determinant, which overflows at
 /// f e^s / z = 4e9.
 constexpr float log_scale = 13.8156F;
-/// Of the length of a quaternion, which is squared: 1e-15 .. 1e15 keeps the square and its inverse clear of both ends
-/// of the range (1e-38 .. 3e38).
+/// Of the length of a quaternion, which is squared: with 1e-15 .. 1e15 the square and its inverse stay within the range
+/// of floats (1e-38 .. 3e38).
 constexpr float least_rotation = 1e-15F;
 constexpr float rotation = 1e15F;
-/// Of a coefficient of colour: floats go by steps of a quarter of a grey level (of 255) there, so that a sum holds
-/// nothing of the colours that it is blended with.
+/// Of a coefficient of colour: the spacing of floats is a quarter of a grey level (of 255) there, so that a sum with
+/// smaller colours loses them.
 constexpr float color = 1e4F;
 }  // namespace gaussian_limits
 
-/// What no device can draw in Gaussian i of `gaussians`, all of whose values are finite: "its rotation has length 0";
-/// empty if it can be drawn. An opacity may be any number (its ends are 0 and 1), and a size as small as one likes.
+/// Why no device can draw Gaussian i of `gaussians`, all of whose values are finite: "its rotation has length 0"; empty
+/// if it can be drawn. An opacity logit may be any number (the opacity approaches 0 or 1), and a size may be as small
+/// as one likes.
 std::string undrawable_value(const Gaussians& gaussians, std::size_t i);
 
 }  // namespace odosplat

@@ -14,9 +14,9 @@
 
 namespace odosplat {
 
-/// What a map says of itself besides its Gaussians. The other fields are read from the notes, and write_map writes the
-/// notes: change these, and make the header anew (from_notes). Defaults: what is true of a map that says nothing
-/// (trained elsewhere, or .splat).
+/// The data of a map besides its Gaussians. The other fields are read from the notes, and write_map writes only the
+/// notes: to change a field, change the notes and make the header anew (from_notes). Defaults: those of a map without
+/// such notes (trained elsewhere, or .splat).
 struct MapHeader {
   /// The lines of the file's header: settings of the training, and everything below; or the comments of another
   /// program's PLY, without those that begin with the name of a setting of ours.
@@ -24,11 +24,11 @@ struct MapHeader {
   /// What the Gaussians are to be rendered with: the order in which they are blended ("blend_order"; depth where it is
   /// not said), "dilation" and "compensated".
   RasterizerOptions rasterizer;
-  /// How sure its depth is ("sigma_..."); none: it was not calibrated.
+  /// The uncertainty of its depth ("sigma_..."); none: it was not calibrated.
   std::optional<SigmaModel> sigma;
   /// T_world_camera from which its training images were taken, thinned ("training_view ...").
   std::vector<SE3> places;
-  /// What training said the map is worth ("quality_..."); none: unknown.
+  /// The quality that training found ("quality_..."); none: unknown.
   std::optional<MapQuality> quality;
 
   /// From notes. InputError("field", fault) for what check_map_header refuses.

@@ -30,7 +30,7 @@ namespace odosplat {
 
 namespace {
 
-constexpr float full_logit = 20.0F;          // of an opacity that no float tells from 1 (negative: from 0)
+constexpr float full_logit = 20.0F;          // of an opacity that equals 1 in single precision (negative: 0)
 constexpr float zero_log_scale = -23.0F;     // 1e-10 m: stands for a size of 0
 constexpr float disc_log_scale = -13.8155F;  // 1e-6 m: the thickness of a disc
 
@@ -39,7 +39,7 @@ const std::vector<std::string> format_notes = {
     "odosplat map, format 1",
     "camera: x right, y down, z forward; pixel (0,0) is the centre of the top-left pixel; metres"};
 
-/// One property of the file and where its values live: array[i * stride + offset].
+/// One property of the file and where its values are stored: array[i * stride + offset].
 struct Field {
   std::string name;
   std::vector<float>* values;
@@ -153,7 +153,7 @@ Map map_from_ply(const Ply& ply) {
   return {gaussians_from_ply(ply), std::move(header)};
 }
 
-// A map whose places went through single precision far from the origin is spoilt, whoever made it.
+// Refuses a map so far from the origin that single precision has spoilt its positions, whichever program wrote it.
 Map near_origin(const std::string& name, Map map) {
   const Gaussians& gaussians = map.gaussians;
   std::vector<Eigen::Vector3d> positions;
@@ -224,7 +224,7 @@ Map parse_map(const std::string& name, const std::string& bytes) {
 
 MapHeader read_map_header(const std::string& path) {
   const std::string start = first_bytes(path);
-  if (start.empty()) read_file(path, max_data_bytes);  // says why it cannot be read
+  if (start.empty()) read_file(path, max_data_bytes);  // throws with the reason why it cannot be read
   refuse_foreign_format(path, start);
   if (is_splat_path(path)) return {};
   std::ifstream file(path, std::ios::binary);

@@ -31,8 +31,9 @@ struct Field {
   bool read_back;  // by MapHeader, map info and the commands that use a map
 };
 
-// The factors of sigma may be twenty times what calibration gives at most; a depth share of 1 is a sigma as large as
-// the depth. Negative quality_depth_..., quality_color_... and quality_images_a_point stand for what is not known.
+// The sigma factors may be at least twenty times the largest that calibration gives; with a depth share of 1, sigma is
+// as large as the depth. Negative quality_depth_..., quality_color_... and quality_images_a_point mean that the value
+// is unknown.
 constexpr auto fields = std::to_array<Field>({
     {"blend_order", Kind::word, 0, 0, true},
     {"dilation", Kind::real, 0.01, 100, true},

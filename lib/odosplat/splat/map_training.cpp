@@ -33,7 +33,7 @@ TrainingStart prepare_training(PointCloud cloud, const std::string& name, const 
   require_seen(name, start.cloud, views);
   notify(stage, "comparing the images at the cloud's points");
   const ColorConsistency consistency(start.cloud, views);
-  constexpr std::size_t least_points = 200;  // in common: fewer say nothing
+  constexpr std::size_t least_points = 200;  // in common: with fewer there is no result
   const ColorConsistency::Value given = consistency.of({});
   start.consistency = given.points >= least_points ? given.unexplained : -1.0;
   start.doubt = geometry_doubt(consistency);

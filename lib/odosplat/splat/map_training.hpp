@@ -21,14 +21,14 @@ namespace odosplat {
 /// Called with a few words when a stage of long work begins ("smoothing the cloud"); may be empty.
 using StageNotice = std::function<void(const std::string& stage)>;
 
-/// All that training starts from, and what can be said of it before.
+/// All that training starts from, and what is known of its quality before.
 struct TrainingStart {
   PointCloud cloud;
   Gaussians gaussians;
   std::unique_ptr<InterpolationView> surface;  // null where the initial shape has none
   double shared_sigma = 0.0;                   // [m]
   CloudCoverage coverage;
-  double consistency = -1.0;  // ColorConsistency::Value::unexplained, negative: too few points in common to tell
+  double consistency = -1.0;  // ColorConsistency::Value::unexplained, negative: too few points in common
   std::optional<GeometryDoubt> doubt;
 };
 
@@ -37,7 +37,7 @@ struct TrainingStart {
 TrainingStart prepare_training(PointCloud cloud, const std::string& name, const InitializeOptions& options,
                                TrainingViews& views, const StageNotice& stage = {});
 
-/// A map, what each training image says of it, and how its training went.
+/// A map, how it compares with each training image, and the report of its training.
 struct TrainedMap {
   Map map;
   std::vector<ViewQuality> views;
@@ -46,12 +46,12 @@ struct TrainedMap {
 
 /// What is known of a training besides its result.
 struct TrainingFacts {
-  int usual_iterations = 0;        // of the preset, to say that a training was short
+  int usual_iterations = 0;        // of the preset, to report that a training was short
   std::size_t budget = 0;          // most Gaussians that the user asked for, 0: no such limit
   std::vector<std::string> notes;  // more lines for the header
 };
 
-/// Judges what the trainer has made by its images, measures how sure its depth is, and writes both, the settings and
+/// Compares the trained map with its images, calibrates the uncertainty of its depth, and writes both, the settings and
 /// the places of the images into the map's header. At most 2 stages.
 TrainedMap finish_training(const compute::Context& context, const Trainer& trainer, const TrainingStart& start,
                            TrainingViews& views, const TrainingFacts& facts, const StageNotice& stage = {});

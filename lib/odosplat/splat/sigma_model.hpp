@@ -7,11 +7,11 @@
 
 namespace odosplat {
 
-/// What the standard deviation of a rendered depth D [m] is taken to be, a root of a sum of squares:
+/// The standard deviation of a rendered depth D [m], modelled as the root of the sum of the squares of
 ///   spread * (standard deviation of depth along the ray)   surfaces that mix in a pixel, layers that disagree
 ///   slope_px * (slope of the Gaussians' planes [m/px])     an error across the image on a surface seen at an angle
-///   depth_share * D                                        what is left everywhere
-///   open_share * (1 - alpha) * D                           what the map does not cover
+///   depth_share * D                                        an error that is found everywhere
+///   open_share * (1 - alpha) * D                           incomplete cover of the pixel by the map
 /// All factors in 0..100. The defaults are those of an uncalibrated map.
 struct SigmaModel {
   float spread = 1.0F;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/accuracy/disturb_image.hpp"
+#include "tests/accuracy/disturb/disturb_image.hpp"
 
 namespace odosplat::accuracy {
 namespace {

@@ -9,7 +9,7 @@
 #include "odosplat/core/random.hpp"
 #include "odosplat/io/cloud/cloud_file.hpp"
 #include "odosplat/splat/map_file.hpp"
-#include "tests/accuracy/disturb_map.hpp"
+#include "tests/accuracy/disturb/disturb_map.hpp"
 
 namespace odosplat::accuracy {
 namespace {

@@ -141,7 +141,7 @@ CloudCheckReport check_cloud(const CloudCheckInput& input, const CloudCheckOptio
   CloudCheckReport report = examine(material, input, options);
   if (!report.fits() && !report.correction_gains()) {
     if (const std::optional<double> factor = likely_unit(material, report, options)) {
-      material.scale_cloud(*factor);
+      material.set_cloud_scale(*factor);
       CloudCheckReport scaled = examine(material, input, options);
       scaled.unit = 1.0 / *factor;
       if (scaled.fits() || scaled.correction_gains()) report = std::move(scaled);

@@ -49,25 +49,26 @@ CloudMaterial::CloudMaterial(const CloudCheckInput& input, const CloudCheckOptio
     camera_ = camera_.level(1);
     ++halvings_;
   }
-  cloud_.points = input.cloud.points;
-  std::erase_if(cloud_.points, [](const Eigen::Vector3f& p) { return !p.allFinite(); });
-  if (cloud_.size() < 4) throw InputError("cloud", "holds too few points to check anything by");
-  const double least = extent_of(cloud_) / 2000.0;
-  for (double voxel = std::max(least, 1e-6); cloud_.size() > static_cast<std::size_t>(options.most_points);
+  given_.points = input.cloud.points;
+  std::erase_if(given_.points, [](const Eigen::Vector3f& p) { return !p.allFinite(); });
+  if (given_.size() < 4) throw InputError("cloud", "holds too few points to check anything by");
+  const double least = extent_of(given_) / 2000.0;
+  for (double voxel = std::max(least, 1e-6); given_.size() > static_cast<std::size_t>(options.most_points);
        voxel *= 1.3) {
-    cloud_ = voxel_downsample(cloud_, voxel);
+    given_ = voxel_downsample(given_, voxel);
   }
-  cloud_.normals.clear();
-  estimate_normals(cloud_, 12);
-  spacings_ = mean_neighbor_distances(cloud_, 6);
-  mirrored_ = mirrored(cloud_);
+  given_.normals.clear();
+  estimate_normals(given_, 12);
+  given_spacings_ = mean_neighbor_distances(given_, 6);
+  set_cloud_scale(1.0);
 }
 
-void CloudMaterial::scale_cloud(double factor) {
-  for (PointCloud* cloud : {&cloud_, &mirrored_}) {
-    for (Eigen::Vector3f& p : cloud->points) p *= static_cast<float>(factor);
-  }
+void CloudMaterial::set_cloud_scale(double factor) {
+  cloud_ = given_;
+  spacings_ = given_spacings_;
+  for (Eigen::Vector3f& p : cloud_.points) p *= static_cast<float>(factor);
   for (float& s : spacings_) s *= static_cast<float>(factor);
+  mirrored_ = mirrored(cloud_);
 }
 
 PatchWorld CloudMaterial::world(bool is_mirrored) const {

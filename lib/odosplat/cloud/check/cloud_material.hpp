@@ -25,8 +25,8 @@ class CloudMaterial {
   /// input must live as long. InputError for a cloud of fewer than 4 finite points.
   CloudMaterial(const CloudCheckInput& input, const CloudCheckOptions& options);
 
-  /// All of the cloud times `factor`, about the world's origin; factors multiply.
-  void scale_cloud(double factor);
+  /// The cloud as it was given, times `factor` about the world's origin.
+  void set_cloud_scale(double factor);
 
   PatchWorld world(bool mirrored) const;
   /// Of `image`, reduced; InputError if it is not of the camera's size.
@@ -43,6 +43,8 @@ class CloudMaterial {
   const CloudCheckInput& input_;
   Camera camera_;
   int halvings_ = 0;
+  PointCloud given_;
+  std::vector<float> given_spacings_;
   PointCloud cloud_;
   PointCloud mirrored_;
   std::vector<float> spacings_;

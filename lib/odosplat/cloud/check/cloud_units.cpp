@@ -23,16 +23,17 @@ std::optional<double> likely_unit(CloudMaterial& material, const CloudCheckRepor
   fewer.patches = std::min(options.patches, patches_wanted);
   std::vector<CloudReading> readings{report.declared};
   if (!(report.winner == report.declared)) readings.push_back(report.winner);
+  std::optional<double> best;
   const auto longest = static_cast<int>(std::max<std::size_t>(1, material.images() / 3));
   for (int gap = std::min(options.gap, longest); gap >= 1; gap /= 2) {
     const std::vector<ImagePair> pairs = choose_pairs(material, gap, fewer.pairs, options.max_shift);
     if (pairs.empty()) continue;
-    std::optional<double> best;
     double least = options.max_error;
     for (const CloudReading& reading : readings) {
+      material.set_cloud_scale(1.0);
       const CloudRow given = measure_row(material, material.world(reading.mirrored), reading, pairs, fewer);
       for (const CoordinateUnit& unit : length_units) {
-        material.scale_cloud(1.0 / unit.times);
+        material.set_cloud_scale(1.0 / unit.times);
         const PatchWorld world = material.world(reading.mirrored);
         const CloudRow row = measure_row(material, world, reading, pairs, fewer);
         if (row.relative_error < least && beats(row, given)) {
@@ -42,12 +43,12 @@ std::optional<double> likely_unit(CloudMaterial& material, const CloudCheckRepor
             best = 1.0 / unit.times;
           }
         }
-        material.scale_cloud(unit.times);
       }
     }
-    if (best) return best;
+    if (best) break;
   }
-  return std::nullopt;
+  material.set_cloud_scale(1.0);
+  return best;
 }
 
 }  // namespace odosplat

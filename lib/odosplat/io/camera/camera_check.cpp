@@ -5,10 +5,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/number_text.hpp"
 
 namespace odosplat {
 namespace {
@@ -80,15 +80,9 @@ double reach(const Lens& lens, const Eigen::Vector2d& target) {
   return 1.0;
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", value);
-  return text;
-}
-
 void require_range(const char* key, double value, double least, double most) {
   if (value >= least && value <= most) return;
-  throw InputError(key, "must be in " + number(least) + ".." + number(most) + ", is " + number(value));
+  throw InputError(key, "must be in " + number_text(least) + ".." + number_text(most) + ", is " + number_text(value));
 }
 
 void check_distortion(const Camera& camera, const std::vector<double>& distortion) {
@@ -105,8 +99,8 @@ void check_distortion(const Camera& camera, const std::vector<double>& distortio
       std::max({camera.cx, camera.width - 1.0 - camera.cx, camera.cy, camera.height - 1.0 - camera.cy});
   if (radius >= to_sides) return;
   std::string values;
-  for (const double d : distortion) values += (values.empty() ? "[" : ", ") + number(d);
-  throw InputError("distortion", values + "] folds within the image: about " + number(std::floor(radius)) +
+  for (const double d : distortion) values += (values.empty() ? "[" : ", ") + number_text(d);
+  throw InputError("distortion", values + "] folds within the image: about " + number_text(std::floor(radius)) +
                                      " px from cx, cy the lens shows two rays in one pixel, and beyond that none");
 }
 

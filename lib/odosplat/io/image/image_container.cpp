@@ -2,8 +2,9 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/io/image/image_container.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <string_view>
 
@@ -17,22 +18,6 @@ constexpr std::string_view jpeg_signature("\xff\xd8\xff", 3);
 constexpr int max_side = 32768;
 // Of a progressive JPEG: every scan decodes the whole image anew, in 20 bytes of the file; encoders write about 10.
 constexpr int max_scans = 500;
-
-// CRC-32 of ISO 3309, reflected polynomial 0xEDB88320, as PNG uses it.
-std::uint32_t crc32(std::string_view bytes) {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> t{};
-    for (std::uint32_t n = 0; n < 256; ++n) {
-      std::uint32_t c = n;
-      for (int k = 0; k < 8; ++k) c = (c & 1U) != 0 ? 0xEDB88320U ^ (c >> 1U) : c >> 1U;
-      t[n] = c;
-    }
-    return t;
-  }();
-  std::uint32_t c = 0xFFFFFFFFU;
-  for (const char byte : bytes) c = table[(c ^ static_cast<unsigned char>(byte)) & 0xFFU] ^ (c >> 8U);
-  return c ^ 0xFFFFFFFFU;
-}
 
 std::uint32_t big_endian(std::string_view bytes, std::size_t at, std::size_t n) {
   std::uint32_t value = 0;
@@ -53,6 +38,11 @@ struct Chunk {
   std::string_view type;
   std::string_view data;
   std::string_view whole;  // with length and checksum
+
+  bool is_intact() const {  // the checksum is of type and data
+    const auto* type_and_data = reinterpret_cast<const Bytef*>(type.data());
+    return crc32_z(0, type_and_data, type.size() + data.size()) == big_endian(whole, whole.size() - 4, 4);
+  }
 };
 
 // at: offset of a chunk whose length field and checksum lie within bytes, or an empty type if they do not.
@@ -71,9 +61,7 @@ ImageContainer inspect_png(const std::string& name, std::string_view bytes) {
   for (std::size_t at = png_signature.size();;) {
     const Chunk chunk = chunk_at(bytes, at);
     if (chunk.type.empty()) truncated(name);
-    if (crc32(chunk.whole.substr(4, 4 + chunk.data.size())) != big_endian(chunk.whole, chunk.whole.size() - 4, 4)) {
-      damaged(name);
-    }
+    if (!chunk.is_intact()) damaged(name);
     if (at == png_signature.size()) {
       if (chunk.type != "IHDR" || chunk.data.size() != 13) damaged(name);
       image.width = static_cast<int>(std::min<std::uint32_t>(big_endian(chunk.data, 0, 4), max_side + 1));

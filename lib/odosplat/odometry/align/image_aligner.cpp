@@ -36,8 +36,8 @@ struct Estimate {
   Brightness brightness;
 };
 
-/// A pose known from elsewhere. The deviation's derivative by a step on the right is taken as the identity: a tie only
-/// has to hold what the image does not tell.
+/// A prior of the pose. The derivative of the deviation by a step on the right is taken as the identity: the prior
+/// matters only for motions that the image does not determine.
 struct Tie {
   SE3 T_target_host;
   Matrix6d information = Matrix6d::Zero();
@@ -106,7 +106,7 @@ Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, c
       products += value * p.intensity;
       const float expected = gain * p.intensity + offset;
       if (value >= clipped_value && expected >= value) {
-        // Clipped as it must be: it agrees, and says nothing more.
+        // Clipped, as it is expected to be: an inlier without derivatives.
         ++sums.inliers;
         continue;
       }
@@ -209,10 +209,10 @@ Alignment ImageAligner::align(const TrackingReference& reference, const FramePyr
     const Camera& camera = reference.cameras[level];
     const GrayImage& image = target.gray[level];
     const int min_in_view = std::max(20, static_cast<int>(options_.min_coverage * static_cast<double>(points.size())));
-    // With a wrong guess most residuals are beyond the cut-off and would pull no longer: widen it then.
+    // With a wrong guess most residuals are beyond the cut-off and have no influence: it is widened then.
     float cutoff = static_cast<float>(options_.cutoff);
     Sums sums = evaluate(points, camera, image, estimate, huber, cutoff);
-    // A coarser level that went astray must not take the finer ones along: the guess gets its chance on every level.
+    // A coarser level that converged to a wrong pose must not mislead the finer ones: each may start from the guess.
     if (l < top) {
       const Estimate guess{T_target_host_guess, brightness_guess};
       const Sums guess_sums = evaluate(points, camera, image, guess, huber, cutoff);
@@ -272,7 +272,7 @@ Alignment ImageAligner::align(const TrackingReference& reference, const FramePyr
     if (!estimate.T.is_finite()) return result;
     result.T_target_host = estimate.T;
     result.brightness = estimate.brightness;
-    // Quality is judged with the plain cut-off, whatever the level was run with.
+    // Quality is computed with the plain cut-off, whatever the level was run with.
     if (cutoff > static_cast<float>(options_.cutoff)) {
       sums = evaluate(points, camera, image, estimate, huber, static_cast<float>(options_.cutoff));
     }
@@ -281,7 +281,7 @@ Alignment ImageAligner::align(const TrackingReference& reference, const FramePyr
     result.coverage = static_cast<double>(sums.in_view) / static_cast<double>(points.size());
     result.contrast = contrast_of(sums, std::exp(estimate.brightness.a));
     result.correlation = correlation_of(sums);
-    // Brightness is a nuisance: its share of the information is taken off (Schur complement).
+    // Brightness is a nuisance parameter: it is eliminated from the information (Schur complement).
     Matrix8d H = sums.H;
     H.diagonal() += prior;
     const Eigen::Matrix2d B = H.bottomRightCorner<2, 2>();

@@ -14,14 +14,14 @@ namespace odosplat {
 struct ImageAlignerOptions {
   double huber = 9.0 / 255;       // [grey] residuals beyond weigh less
   double cutoff = 20.0 / 255;     // [grey] residuals beyond count as outliers
-  int max_iterations = 30;        // a level
+  int max_iterations = 30;        // per level
   double converged = 0.02;        // [px] predicted image motion of a step below which a level is done
   double min_coverage = 0.2;      // share of points that must stay in view
   double max_log_gain = 1.2;      // |a| of the relative brightness, natural log
   double gain_sigma = 0.5;        // weak prior on a, relative to its guess
   double offset_sigma = 0.5;      // [grey] weak prior on b
   double noise = 5.0 / 255;       // [grey] of one residual, for covariance and priors
-  double bare_noise = 2.0 / 255;  // [grey] the same of a bare reference, where little but noise is left of it
+  double bare_noise = 2.0 / 255;  // [grey] the same for a bare reference, whose residuals are little but noise
   RowGainOptions row_gain;
 
   void check() const;
@@ -41,7 +41,7 @@ struct Alignment {
   bool finished = false;  // false: too few points in view, or not finite
 };
 
-/// What is known of a pose before its image is looked at: where it probably is, and how surely.
+/// What is known of a pose before its image is compared: where it probably is, and how surely.
 struct PosePrior {
   SE3 T_target_host;
   /// Of exp(xi) applied on the right of T_target_host, xi = (translation [m], rotation [rad]).
@@ -51,8 +51,8 @@ struct PosePrior {
 /// Prior of independent errors of translation [m] and rotation [rad], the same along all axes.
 PosePrior pose_prior(const SE3& T_target_host, double sigma_translation, double sigma_rotation);
 
-/// How much an alignment is worth against others of the same frame: inliers over all points of the level, which rewards
-/// agreement and staying in view, less their residual; -1 where it did not finish.
+/// Measure to compare alignments of the same frame: inliers over all points of the level, which rewards agreement and
+/// staying in view, less their residual; -1 where it did not finish.
 double worth(const Alignment& alignment);
 
 /// Coarse-to-fine direct alignment: minimises sum w huber(I_target(pi(T p)) - e^a I_host(p) - b) over T, a, b.
@@ -63,8 +63,8 @@ class ImageAligner {
  public:
   explicit ImageAligner(const ImageAlignerOptions& options);
 
-  /// Levels from `coarsest` down to `finest` (clamped to those that both sides have) from the guess. prior: null, or
-  /// what holds the directions of motion that the image says nothing of, as before a bare wall.
+  /// Levels from `coarsest` down to `finest` (clamped to those that both sides have) from the guess. prior: null, or a
+  /// prior for motions that the image does not determine, as in front of a bare wall.
   Alignment align(const TrackingReference& reference, const FramePyramid& target, const SE3& T_target_host_guess,
                   const Brightness& brightness_guess, int coarsest, int finest, const PosePrior* prior = nullptr) const;
 

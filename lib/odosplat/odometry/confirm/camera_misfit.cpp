@@ -11,9 +11,9 @@
 namespace odosplat {
 namespace {
 
-constexpr int least_patches = 20;  // squares that agree somewhat, below which an image says nothing of its camera
-constexpr double settled = 1e-4;   // [m, rad, and of the focal length] a step that moves nothing by a visible part of
-                                   // a pixel
+constexpr int least_patches = 20;  // squares that agree somewhat, below which an image is not used
+constexpr double settled = 1e-4;   // [m, rad, and of the focal length] a step that moves nothing by a visible part of a
+                                   // pixel
 
 struct Reduced {
   Eigen::Matrix4d information;
@@ -50,7 +50,7 @@ CameraMisfit::CameraMisfit(const CameraMisfitOptions& options) : options_(option
 }
 
 MisfitEffect CameraMisfit::add(const ViewPatches& patches, const FramePyramid& image, const SE3& T_world_camera) {
-  // From what the keyframes before have said of the camera, with the pose that belongs to it.
+  // Starts from the errors that earlier keyframes gave; the pose is estimated along with them.
   Eigen::Vector4d camera = correction().vector();
   SE3 T_camera_world = T_world_camera.inverse();
   MisfitSystem system;
@@ -81,7 +81,7 @@ MisfitEffect CameraMisfit::add(const ViewPatches& patches, const FramePyramid& i
   vector_ += scale * (reduced.vector + reduced.information * camera);
   const Eigen::Vector4d found = correction().vector();
   MisfitEffect effect;
-  // A camera is taken to be right until its images say otherwise: before a flat wall they say nothing.
+  // The calibration counts as right until an error is significant. Images of a flat wall, for example, determine none.
   if (likely_cause(image.cameras.front()).empty()) return effect;
   const Vector6d twist = reduced.pose_by_camera * found;
   effect.meters = twist.head<3>().norm();
@@ -100,7 +100,7 @@ Eigen::Matrix4d CameraMisfit::covariance() const { return information_.inverse()
 std::string CameraMisfit::likely_cause(const Camera& camera) const {
   const Eigen::Vector4d found = correction().vector();
   const Eigen::Vector4d sigma = covariance().diagonal().cwiseSqrt();
-  // What it amounts to at half the image's width, in pixels.
+  // The errors in pixels at half the image's width.
   const double half = 0.5 * camera.width;
   const double radius = half / camera.fx;
   const Eigen::Vector4d pixels(found[0] * half, found[1] * camera.fx, found[2] * camera.fy,

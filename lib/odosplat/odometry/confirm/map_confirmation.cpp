@@ -46,10 +46,12 @@ float remove_plane(Values& values) {
 
 float length_of_spread(double spread) { return static_cast<float>(patch_side * spread); }
 
-/// Variance of one normalised grey value that is assumed at least: squares that correlate by 0.97, as in the best maps.
+/// Least variance that is assumed of one normalised grey value: that of squares that correlate by 0.97, as in the best
+/// maps.
 constexpr double least_noise = 1e-3;
 
-/// Of two squares that hardly vary the correlation is close to 0, not a ratio of roundings.
+/// Least spread that a square is divided by, so that the correlation of two squares that hardly vary is close to 0, not
+/// a ratio of rounding errors.
 constexpr double least_spread = 0.5 / 255;
 
 /// Depth of every pixel of a square; what has none gets the mean of the others. False: too few have.
@@ -87,7 +89,7 @@ void ConfirmationOptions::check() const {
 double confirmation_probability(double score, int patches, const ConfirmationOptions& options) {
   if (patches == 0) return 0.0;
   const double variance = options.null_common * options.null_common + options.null_patch * options.null_patch / patches;
-  // Negative scores speak against the pose as much as 0 does.
+  // A negative score counts as 0.
   const double s = std::max(0.0, score);
   const double log_null = -0.5 * s * s / variance - 0.5 * std::log(2.0 * std::numbers::pi * variance);
   const double log_odds = std::log(options.prior / (1.0 - options.prior)) - log_null;
@@ -232,7 +234,7 @@ MisfitSystem ViewPatches::misfit(const FramePyramid& image, const SE3& T_camera_
       v_along += static_cast<double>(values[i] * along_v[i]);
     }
     if (correlation < min_patch) continue;
-    // The scaled values change with the shift as the image does, less what goes along with the values themselves.
+    // Derivatives of the normalised values by the shift: the image's, less their component along the values themselves.
     Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
     Eigen::Vector2d b = Eigen::Vector2d::Zero();
     for (std::size_t i = 0; i < patch_pixels; ++i) {

@@ -11,21 +11,22 @@
 
 namespace odosplat {
 
-/// Side of a square of a view that is looked for in an image [px of its pyramid level].
+/// Side of the squares of a view that are compared with an image [px of its pyramid level].
 inline constexpr int patch_side = 8;
 inline constexpr int patch_pixels = patch_side * patch_side;
 
 struct ConfirmationOptions {
-  bool enabled = true;             // false: every pose is taken as it comes, as where the map has no colours
+  bool enabled = true;             // false: every pose is accepted, as where the map has no colours
   int width = 400;                 // [px] the finest level that is compared is at most this wide, the other one half
-  double min_texture = 2.0 / 255;  // [grey] spread in a square, less a plane, of image or map; below, it says nothing
-  int min_patches = 30;            // squares with texture, on one level, below which nothing can be said
+  double min_texture = 2.0 / 255;  // [grey] spread in a square, less a plane; a square with less in both image and map
+                                   // is not used
+  int min_patches = 30;            // squares with texture, on one level, that a verdict needs
   double min_share = 0.3;          // share of the image that the map must show
 
-  // The score of an image of another place, where it fits best, is taken to be normal around 0 with variance
-  // null_common^2 + null_patch^2 / squares. Of 1392 such pairs of images and places in three maps (odosplat_accuracy
-  // confirm) none was confirmed or undecided; all right ones were confirmed where a map shows enough. The common part
-  // is for parts of one place that repeat, as ceiling panels do.
+  // The score of an image of another place, at the pose where it fits best, is modelled as normal around 0 with
+  // variance null_common^2 + null_patch^2 / squares. The common part accounts for structures that repeat within a
+  // place, as ceiling panels do. `odosplat_accuracy confirm` counts the wrong poses that are confirmed with these
+  // values and the right ones that are not.
   double null_common = 0.05;
   double null_patch = 0.5;
   double prior = 1e-3;        // probability of a right pose before the image is looked at
@@ -36,10 +37,10 @@ struct ConfirmationOptions {
   void check() const;
 };
 
-/// What the map's colours say about a pose.
+/// How a pose agrees with the map's colours.
 enum class Confirmation {
   none,          // nothing: the map shows too little there, or nothing with texture, or has no colours
-  confirmed,     // the map is seen from there
+  confirmed,     // the image agrees with the map there
   undecided,     // image and map agree in part
   contradicted,  // the map shows something else from there
 };
@@ -49,16 +50,16 @@ struct MapEvidence {
   double share = 0.0;        // of the image, where the view's squares fall
   int patches = 0;           // squares with texture on the level that decides
   double score = 0.0;        // -1..1, their mean correlation
-  double probability = 0.0;  // that the map is seen from there; 0 where nothing can be said
+  double probability = 0.0;  // that the pose is right; 0 where nothing can be compared
   Confirmation verdict = Confirmation::none;
 };
 
 /// A rendered view of the map cut into squares, each with its place in space, to be compared with images from nearby.
-/// A square of the view and what the image shows in its place are correlated after their mean and their slope are taken
-/// off: light, exposure and shading do not count, nor does what an alignment can bring to agree between two different
-/// places, and squares of an image of another place correlate by chance, this way or that. Their mean is the score. The
-/// image is compared on two pyramid levels, of which the coarser one serves images that are blurred. Data; the same
-/// bits for any number of threads.
+/// Each square is correlated with what the image shows in its place, after mean and slope are removed from both: then
+/// light, exposure and shading have no influence, nor has what an alignment can bring to agree between two different
+/// places, and squares of an image of another place correlate by chance, positively or negatively. The mean of the
+/// correlations is the score. The image is compared on two pyramid levels, of which the coarser one is for blurred
+/// images. Data; the same bits for any number of threads.
 class ViewPatches {
  public:
   /// view: rendered with colours by this camera; without colours there are no squares. smoothing: as that of the
@@ -68,16 +69,17 @@ class ViewPatches {
   /// image: of the same camera, taken at T_world_camera.
   MapEvidence compare(const FramePyramid& image, const SE3& T_world_camera) const;
 
-  /// What the squares say about pose and camera together: the normal equations of the shifts that bring each of them to
-  /// agree with the image, at T_camera_world and `camera`. coarse: 0 the finer level, 1 the coarser one. Squares that
-  /// correlate by less than min_patch are left out, others count by the square of their correlation.
+  /// The normal equations for pose and camera together: of the shifts that bring each square to agree with the image,
+  /// at T_camera_world and `camera`. coarse: 0 the finer level, 1 the coarser one. Squares that correlate by less than
+  /// min_patch are left out, others count by the square of their correlation.
   MisfitSystem misfit(const FramePyramid& image, const SE3& T_camera_world, const CameraCorrection& camera, int coarse,
                       double min_patch) const;
 
  private:
   struct Patch {
     std::array<float, patch_pixels> x, y, z;  // [m] in the view's frame
-    std::array<float, patch_pixels> shape;    // grey values less mean and slope, of length 1; 0 without texture
+    std::array<float, patch_pixels> shape;    // grey values less mean and slope, of length 1; shorter if they hardly
+                                              // vary
     bool textured = false;
   };
   struct Level {

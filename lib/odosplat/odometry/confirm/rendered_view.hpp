@@ -8,7 +8,7 @@
 
 namespace odosplat {
 
-/// What the map looks like from one pose, with that pose: the images belong to no other.
+/// The images of the map rendered from one pose, with that pose.
 struct RenderedView {
   SE3 T_world_camera;
   ViewImages images;

@@ -10,7 +10,7 @@
 
 namespace odosplat {
 
-/// A frame as it was taken, and with its rows exposed alike.
+/// A frame as it was taken, and with the different gains of its rows removed.
 struct EvenFrame {
   std::shared_ptr<const FramePyramid> taken;
   std::shared_ptr<const FramePyramid> even;  // taken, divided by the gain; the same if that is empty
@@ -19,9 +19,9 @@ struct EvenFrame {
 
 EvenFrame make_even(std::shared_ptr<const FramePyramid> taken, const RowGain& row_gain = {});
 
-/// Estimates the frame's row gain against the reference and aligns the frame, made even, again, until the gain stays or
-/// twice. True if anything was changed. alignment: of frame.even with the reference, finished; a change that makes it
-/// worth less is not taken.
+/// Estimates the frame's row gain against the reference, divides the rows by it and aligns the frame again; repeated at
+/// most once, while the gain still changes. True if anything was changed. alignment: of frame.even with the reference,
+/// finished; a change that does not raise its worth() is discarded.
 bool even_rows(const ImageAligner& aligner, const TrackingReference& reference, EvenFrame& frame, Alignment& alignment);
 
 }  // namespace odosplat

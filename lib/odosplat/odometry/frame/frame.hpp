@@ -11,7 +11,8 @@
 
 namespace odosplat {
 
-/// [grey] A pixel this bright is taken for clipped: more light may be there. Smoothing takes a little off the white.
+/// [grey] A pixel this bright counts as clipped: its true value may be higher. The limit is below 1 because smoothing
+/// darkens white pixels a little.
 inline constexpr float clipped_value = 0.985F;
 
 /// Affine brightness of a frame: I_frame = e^a L + b, where L is what a camera of neutral exposure would have seen.
@@ -34,13 +35,13 @@ struct FramePyramid {
   int levels() const { return static_cast<int>(gray.size()); }
 };
 
-/// Throws InputError unless the image is as large as the camera says.
+/// Throws InputError unless the image has the camera's size.
 void check_size(const Camera& camera, const GrayImage& image);
 
 /// Levels are halved while both sides stay at least 30 px, at most 6 of them. gray is shared, not copied; its size must
 /// be the camera's (InputError). smoothing [px] >= 0: standard deviation of a Gaussian that level 0 is smoothed with
-/// first; it takes off what aliases, which bilinear interpolation would turn into noise, and makes real and rendered
-/// images more alike.
+/// first; it removes aliasing, which bilinear interpolation would turn into noise, and makes real and rendered images
+/// more alike.
 FramePyramid build_frame_pyramid(const Camera& camera, const GrayImage& gray, double smoothing = 0.0);
 
 /// Per pixel: grey value, d/du, d/dv [1/px] by central differences, squared gradient norm. The outermost pixels have
@@ -55,7 +56,7 @@ struct GradientSample {
 };
 
 /// Bilinear; the caller makes sure that 0 <= u < cols - 1 and 0 <= v < rows - 1. data and step (in floats) are the
-/// image's: the innermost loop of all does not look them up for every pixel.
+/// image's; they are parameters so that the innermost loop does not look them up for every pixel.
 inline GradientSample sample(const float* data, std::ptrdiff_t step, float u, float v) {
   const int x = static_cast<int>(u);
   const int y = static_cast<int>(v);

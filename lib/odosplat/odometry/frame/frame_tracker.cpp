@@ -38,7 +38,7 @@ FrameTracker::FrameTracker(const FrameTrackerOptions& options) : options_(option
 TrackedFrame FrameTracker::track(std::shared_ptr<const FramePyramid> pyramid, double time) {
   TrackedFrame frame;
   frame.was_lost = lost_;
-  // Light that flickers over the rows is nearly that of the last frame.
+  // The row gain of flickering light changes little from frame to frame: the last one is a good start.
   frame.image = make_even(std::move(pyramid), last_row_gain_);
   if (!lost_) frame.alignment = track_against_reference(*frame.image.even, time);
   if (lost_ || !believed(frame.alignment, false)) frame.alignment = search_references(*frame.image.even);
@@ -83,7 +83,8 @@ void FrameTracker::set_references(std::vector<ReferenceFrame> references, const 
   current_ = references_.size() - 1;
   if (references_.back().id != newest_before) {
     first_rmse_ = 0.0;
-    // After a loss the newest keyframe is the last frame itself, and what was believed of its brightness is not.
+    // After a loss the newest keyframe is the last frame itself, and the brightness estimated before does not hold for
+    // it.
     if (lost_) last_brightness_ = references_.back().brightness;
     relative_brightness_ = relative_brightness(last_brightness_, references_.back().brightness);
     return;
@@ -114,7 +115,7 @@ Alignment FrameTracker::track_against_reference(const FramePyramid& pyramid, dou
   };
   const auto guesses = relative(motion_guesses(history_, time, T_world_host));
   const int top = pyramid.levels() - 1;
-  // A step's uncertainty grows with its length in time; where nothing is known of the velocity, nothing is held.
+  // The uncertainty of the prediction grows with the time since the last frame; without a velocity there is no prior.
   const double steps = steps_ahead(history_, time);
   const double scale = std::max(1.0, steps);
   const PosePrior motion =
@@ -126,7 +127,8 @@ Alignment FrameTracker::track_against_reference(const FramePyramid& pyramid, dou
   const auto offer = [&](const Alignment& other) {
     if (worth(other) > worth(best)) best = other;
   };
-  // Repeated patterns lead coarse levels astray where the prediction itself was close: start lower.
+  // With repeated patterns the coarse levels may converge to a wrong pose although the prediction was close: start at a
+  // finer level.
   for (int level = std::min(2, top - 1); level >= 0; --level) {
     offer(aligner_.align(points, pyramid, guesses.front(), relative_brightness_, level, 0, held));
   }
@@ -148,7 +150,7 @@ bool FrameTracker::as_good_as_last(const Alignment& a) const {
 }
 
 Alignment FrameTracker::search_references(const FramePyramid& pyramid) {
-  // Newest first: the camera was there last. The first keyframe that is believed becomes the reference.
+  // Newest first: the camera was there last. The first keyframe with an accepted alignment becomes the reference.
   Alignment best;
   const SE3 T_world_last = history_.has_last ? history_.last : reference().T_world_camera;
   for (std::size_t k = references_.size(); k-- > 0;) {

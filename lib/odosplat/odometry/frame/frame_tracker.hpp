@@ -14,17 +14,18 @@
 
 namespace odosplat {
 
-/// When an alignment is believed.
+/// When an alignment is accepted.
 struct AcceptOptions {
   double min_inliers = 0.5;    // share of points in view that agree
   double min_coverage = 0.25;  // share of the reference's points in view
-  double min_contrast = 0.5;   // the image's spread at the points over the expected one: a blank image has none
+  double min_contrast = 0.5;   // spread of the image's values at the points over the expected one; 0 for a blank image
   double max_contrast = 2.0;
-  // Of the image with the reference at its points, outliers included. Right poses reach 0.90 and more, on blurred real
-  // images, too (median 0.99); images of another place or room, aligned as well as they can be, 0.07.
+  // Of the image's values with the reference's at its points, outliers included. Right poses reach 0.9 and more, also
+  // with blurred images; an image of another place stays near 0 even where it fits best.
   double min_correlation = 0.5;
-  double sure_correlation = 0.9;  // below, a frame that fits worse than the last one is looked up: is it elsewhere?
-  // Of the deviation from constant velocity between two frames: holds what the image does not tell.
+  double sure_correlation = 0.9;  // below, a frame that fits worse than the last one is looked up, as it may be
+                                  // elsewhere
+  // Prior of the deviation from constant velocity between two frames, for motions that the image does not determine.
   double motion_translation = 0.005;  // [m] standard deviation
   double motion_rotation = 0.005;     // [rad] standard deviation
   double retrack = 1.5;               // residual over the last frame's beyond which other guesses are tried
@@ -43,10 +44,10 @@ struct FrameTrackerOptions {
   void check() const;
 };
 
-/// Where a frame is, by the keyframe it was compared with.
+/// The pose of a frame, by the keyframe it was compared with.
 struct TrackedFrame {
   bool found = false;
-  bool was_lost = false;  // found, or not, after a loss
+  bool was_lost = false;  // tracking was lost before this frame
   EvenFrame image;        // as it was compared
   Alignment alignment;    // against the reference
   int keyframe = -1;      // the reference's number
@@ -56,9 +57,9 @@ struct TrackedFrame {
   // Of exp(xi) on the left of T_world_camera, before any factor: of the alignment alone, and of the keyframe.
   Matrix6d covariance = Matrix6d::Zero();
   Matrix6d keyframe_covariance = Matrix6d::Zero();
-  MapEvidence evidence;         // what the map, seen from about the keyframe, says about the pose
-  bool doubtful = false;        // believed, but it fits worse than the last frame: is it elsewhere?
-  MisfitEffect misfit;          // of the camera on the keyframe's pose
+  MapEvidence evidence;         // how the image compares with the map as seen from about the keyframe
+  bool doubtful = false;        // accepted, but it fits worse than the last frame and may be elsewhere
+  MisfitEffect misfit;          // effect of errors of the camera's calibration on the keyframe's pose
   bool verifiable = false;      // the map has colours, and the keyframe's depth is the map's
   bool after_gap = false;       // the last frame is several intervals old
   double keyframe_score = 0.0;  // beyond 1 the frame should become a keyframe
@@ -76,13 +77,14 @@ class FrameTracker {
   /// Not if empty().
   const ReferenceFrame& newest() const { return references_.back(); }
 
-  /// Finds the frame. The caller tells the pose at last by confirm(), as a keyframe may change it, or by lose().
+  /// Finds the frame. Afterwards the caller must call confirm() with the final pose, which a new keyframe may have
+  /// changed, or lose().
   TrackedFrame track(std::shared_ptr<const FramePyramid> pyramid, double time);
 
-  /// Takes over what the back end says of its keyframes (oldest first, not empty). Frames are compared with the newest
-  /// from now on if that is new; else with the same one as before, where it is. T_new_old: how the back end has moved
-  /// the newest keyframe from where it was tracked, on the left. The frames of the history move along, so that the
-  /// correction is not taken for motion.
+  /// Takes over the back end's keyframes (oldest first, not empty). If the newest is new, frames are aligned with it
+  /// from now on; otherwise with the same keyframe as before, if that is still there. T_new_old: correction that the
+  /// back end has made to the tracked pose of the newest keyframe, on the left. The frames of the motion history are
+  /// corrected too, so that the correction is not taken for motion.
   void set_references(std::vector<ReferenceFrame> references, const SE3& T_new_old);
 
   /// The last frame is at T_world_camera.

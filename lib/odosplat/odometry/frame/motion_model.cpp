@@ -32,7 +32,7 @@ SE3 continued(const MotionHistory& history, double s) {
 double steps_ahead(const MotionHistory& history, double time) {
   if (!history.has_velocity) return 0.0;
   const double dt = history.last_time - history.previous_time;
-  // A long gap says nothing about where the camera went meanwhile.
+  // Over a long gap the velocity predicts nothing.
   const double s = (time - history.last_time) / dt;
   return s > 0.0 && s < 5.0 ? s : 0.0;
 }

@@ -21,14 +21,14 @@ struct MotionHistory {
   /// Forgets the velocity (after a loss), not the place.
   void stop() { has_velocity = false; }
   void clear() { *this = {}; }
-  /// What was known as T is T_new_old * T: the world about the camera has been corrected.
+  /// Replaces every pose T by T_new_old * T, after a correction of the keyframes.
   void move(const SE3& T_new_old);
 };
 
 /// Constant velocity in the camera's own frame; the last pose when there is no velocity. history.has_last must hold.
 SE3 predict(const MotionHistory& history, double time);
 
-/// Steps of the last two poses' distance in time that lie between the last pose and `time`; 0 where predict() gives the
+/// Time from the last pose to `time`, in units of the interval between the last two poses; 0 where predict() gives the
 /// last pose: without velocity, and over long gaps.
 double steps_ahead(const MotionHistory& history, double time);
 
@@ -36,7 +36,7 @@ double steps_ahead(const MotionHistory& history, double time);
 /// `keyframe`. Source: DSO's list of motion hypotheses.
 std::vector<SE3> motion_guesses(const MotionHistory& history, double time, const SE3& T_world_keyframe);
 
-/// The pose turned about its own axes by angle [rad]: the 26 combinations of -1, 0, 1 a camera axis.
+/// The pose turned in the camera's frame by the 26 rotation vectors whose components are -angle, 0 or angle [rad].
 std::vector<SE3> rotated_guesses(const SE3& T_world_camera, double angle);
 
 }  // namespace odosplat

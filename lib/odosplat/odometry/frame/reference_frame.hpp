@@ -11,7 +11,7 @@
 
 namespace odosplat {
 
-/// A keyframe as the front end knows it: what the back end said of it last. A copy, so that the back end may move its
+/// A keyframe as the front end knows it: a copy of the back end's latest estimate, so that the back end may move its
 /// keyframes meanwhile; the points are shared and never change.
 struct ReferenceFrame {
   int id = -1;  // of the keyframe
@@ -19,9 +19,9 @@ struct ReferenceFrame {
   Brightness brightness;
   Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera
   std::shared_ptr<const TrackingReference> points;
-  std::shared_ptr<const ViewPatches> patches;  // of the map, seen from there; null: the map has no colours
+  std::shared_ptr<const ViewPatches> patches;  // of the map, rendered from there; null: the map has no colours
   bool in_map = false;                         // its depth is the map's
-  MisfitEffect misfit;                         // of the camera on its pose
+  MisfitEffect misfit;                         // effect of errors of the camera's calibration on its pose
 };
 
 }  // namespace odosplat

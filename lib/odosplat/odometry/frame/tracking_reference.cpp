@@ -29,8 +29,8 @@ ReferencePoint make_point(const Camera& camera, const GradientImage& gradient, c
   return out;
 }
 
-/// Mean inverse depth of the points that fall on each pixel of a level, 0 where none does; one pixel wider than they
-/// are.
+/// Mean inverse depth of the points that fall on each pixel of a level; without any, the mean of those on its four
+/// neighbours; 0 if there are none either.
 cv::Mat1f splat(const cv::Size& size, int level, std::span<const TransferredPoint> projected) {
   cv::Mat1f sum(size, 0.0F);
   cv::Mat1f count(size, 0.0F);
@@ -138,7 +138,8 @@ TrackingReference build_reference(const FramePyramid& pyramid, std::span<const G
           fit_surface(pyramid.cameras[0], view.depth, view.sigma, full(pixel.x), full(pixel.y), scale, plane_options);
       if (!surface) continue;
       const Eigen::Vector3d ray = camera.ray(pixel.x, pixel.y);
-      // The fitted plane's depth on this level's own ray: level 0 pixels lie up to half a pixel beside it.
+      // Depth of the fitted plane on the ray of this level's pixel: the level 0 pixel is up to half a pixel away from
+      // it.
       const double q = surface->edge ? surface->inverse_depth : surface->m_camera.dot(ray);
       if (!(q > 0.0)) continue;
       points.push_back(make_point(camera, gradient, pixel, q, c2));

@@ -26,21 +26,23 @@ struct alignas(64) ReferencePoint {
 /// What a frame is aligned to: pixels of a host image on every pyramid level. The host is a keyframe or a rendered
 /// view of the map. Data only.
 struct TrackingReference {
-  std::vector<Camera> cameras;                      // a level each
+  std::vector<Camera> cameras;                      // one per level
   std::vector<std::vector<ReferencePoint>> levels;  // level 0 is full size
-  bool bare = false;                                // most of the image has weak gradients only, and they were taken
+  bool bare = false;                                // most of the image has only weak gradients, and pixels of these
+                                                    // were picked
   /// True if no level has points: it cannot be aligned to.
   bool empty() const { return levels.empty() || levels.front().empty(); }
 };
 
 struct ReferenceOptions {
   int points = 2000;                    // wanted on level 0 of a 320x240 image; grows with the square root of the area
-  double level_share = 0.6;             // points wanted a level up, as a share of the level below
+  double level_share = 0.6;             // points wanted on a level, as a share of those on the finer level below it
   int min_points = 250;                 // wanted on any level
   double gradient_weight = 50.0 / 255;  // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2)
   double min_gradient = 5.0 / 255;      // [grey/px] of a pixel whose depth comes from another keyframe's point
-  double bare_share = 0.5;              // of the image's regions with picked pixels, below which it is bare
-  double bare_factor = 5.0;             // so many times the points are wanted of a bare image, as each says little
+  double bare_share = 0.5;              // share of the image's regions with picked pixels below which the image counts
+                                        // as bare
+  double bare_factor = 5.0;             // factor of the points wanted on a bare image, as each contributes little
 
   void check() const;
   /// Points wanted on level 0 of this camera.

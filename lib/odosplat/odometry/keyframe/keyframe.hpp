@@ -16,11 +16,11 @@
 
 namespace odosplat {
 
-/// A point of the window's adjustment: a pixel of its host and its inverse depth, which is that of a plane where the
-/// pixel's ray meets it, plus `offset`. The plane is the map's and stays in the world, so that moving the host moves
-/// the point along it and the map's geometry observes absolute pose (Ye, Huang, Liu 2020); or it moves with the host
-/// (`plane_in_world` false). The offset is 0, or an unknown of the adjustment (`estimated`), with a prior around 0 or
-/// without: points that the map does not show, and maps that are not believed to the last millimetre.
+/// A point of the window's adjustment: a pixel of its host keyframe with an inverse depth, which is that of a plane on
+/// the pixel's ray, plus `offset`. The plane is the map's and fixed in the world, so that moving the host moves the
+/// point along the plane and the map's geometry constrains the absolute pose (Ye, Huang, Liu 2020); or it moves with
+/// the host (`plane_in_world` false). The offset is 0, or an unknown of the adjustment (`estimated`), with a prior
+/// around 0 or without one: for maps whose depth is not exact, and for points that the map does not show.
 struct WindowPoint {
   float u = 0.0F;  // [px]
   float v = 0.0F;
@@ -29,7 +29,7 @@ struct WindowPoint {
   double sigma = 0.0;                                // [1/m] of the plane's inverse depth, where nothing is estimated
   bool plane_in_world = true;
   bool estimated = false;
-  bool of_map = true;                  // the map's depth, in whatever way it is used; false: seen by motion alone
+  bool of_map = true;                  // its depth comes from the map, however it is used; false: from motion alone
   double offset = 0.0;                 // [1/m]
   double prior_information = 0.0;      // [m^2] of the offset around 0, if estimated; 0: none
   int agreeing = 0;                    // keyframes in which it was seen and agreed, at the last adjustment
@@ -45,11 +45,11 @@ inline double inverse_depth(const WindowPoint& point, const Camera& camera, cons
   return m.dot(ray) + point.offset;
 }
 
-/// A view whose pose is known and fixed: the map's own from where a keyframe was believed to be, or a keyframe that was
-/// made before and held by the map. It says what the keyframe should see.
+/// A view whose pose is known and fixed, to which the window ties a keyframe: the map rendered from where the keyframe
+/// was assumed to be, or an earlier keyframe that was itself aligned with the map.
 struct Anchor {
   SE3 T_world_view;
-  Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of it, which the adjustment passes on
+  Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of it; the adjustment adds it to the keyframe's
   Brightness brightness;                   // estimated: the view's exposure against the camera's
   std::vector<WindowPoint> points;
   double weight = 1.0;  // factor of all its squared residuals
@@ -61,7 +61,7 @@ struct Keyframe {
   int frame = 0;      // counts images from 0
   double time = 0.0;  // [s]
   SE3 T_world_camera;
-  /// Where tracking and the map's anchor had it before the window was adjusted: a weak prior of its pose.
+  /// Its pose by tracking and by alignment with the map, before the window was adjusted: centre of a weak prior.
   std::optional<SE3> T_world_tracked;
   Brightness brightness;
   Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of T_world_camera, as the window knows it
@@ -71,9 +71,10 @@ struct Keyframe {
   std::vector<ImmaturePoint> immature;
   std::vector<Anchor> anchors;
   std::shared_ptr<const TrackingReference> reference;  // this image with the map's depth, for tracking later frames
-  std::shared_ptr<const ViewPatches> patches;  // of the map seen from about here, to confirm poses by; null: no colours
+  std::shared_ptr<const ViewPatches> patches;  // of the map, rendered from about here, to confirm poses with; null: no
+                                               // colours
   bool in_map = false;                         // its depth is the map's
-  MisfitEffect misfit;                         // of its camera on its pose
+  MisfitEffect misfit;                         // effect of errors of the camera's calibration on its pose
 };
 
 }  // namespace odosplat

@@ -110,7 +110,7 @@ KeyframeBackend::Attempt KeyframeBackend::make_recalled(const RenderedView& view
                                                         const KeyframeRequest& request, KeyframeContext context,
                                                         EvenFrame& image, std::vector<GradientImage>& gradients) {
   const SE3& T_world_keyframe = recalled.front().T_world_camera;
-  context.distrust_map = false;  // it is seen from where the camera is
+  context.distrust_map = false;  // the view is rendered from a pose that remembered keyframes gave
   Attempt result;
   result.made = make_from(view, request, context, image, gradients);
   result.patches = patches_of(view);
@@ -137,8 +137,8 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, E
   context.first = window_.keyframes.empty();
   context.other_points = static_cast<int>(points_seen_from(request.T_world_camera).size());
   context.distrust_map = outside_;
-  // What was rendered ahead shows what the anchor's alignment will find, only its pose is another than the frame's: a
-  // keyframe that is not anchored cannot be made from it.
+  // The view rendered ahead has another pose than the frame. The anchor's alignment finds the frame's pose in it;
+  // without an anchor, no keyframe can be made from it.
   std::optional<RenderedView> ahead = std::exchange(prefetched_, std::nullopt);
   if (ahead && (!anchor.enabled || request.view != nullptr ||
                 view_flow(camera_, *ahead, request.T_world_camera) > anchor.render_again_flow)) {
@@ -158,7 +158,8 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, E
   MadeKeyframe& made = result.made;
   double& corrected = result.corrected;
   SE3 T_world_keyframe = view.T_world_camera;
-  // Seen from where the map says the camera is, if that is elsewhere: depth and colour must belong to the pixel.
+  // Rendered again from the pose that the map gives, if that differs: depth and colour must belong to the image's
+  // pixels.
   for (int attempt = 0; attempt < 3; ++attempt) {
     if (attempt > 0) {
       view = seen_from(map, T_world_keyframe);
@@ -178,7 +179,7 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, E
   }
   result.patches = patches_of(view);
   if (outside_ && corrected > 0.0 && (!made.anchored || made.map_flow > anchor.render_again_flow)) {
-    // A place that the map gives and does not confirm from there is no way back into it.
+    // The map gave a pose but did not confirm it in the view rendered from there: the camera is not back in the map.
     const double map_share = made.map_share;
     made = make_from({request.T_world_camera, {}}, request, context, image, gradients);
     made.map_share = map_share;
@@ -212,7 +213,7 @@ void KeyframeBackend::make_room() {
   if (drop < 0) return;
   const std::shared_ptr<Keyframe> leaving = window_.keyframes[static_cast<std::size_t>(drop)];
   marginalize_keyframe(window_, static_cast<std::size_t>(drop), camera_, options_.optimizer, options_.marginalization);
-  // Large, and of no use in memory.
+  // These are large, and KeyframeMemory does not need them.
   leaving->gradient.release();
   leaving->immature = {};
   leaving->anchors = {};

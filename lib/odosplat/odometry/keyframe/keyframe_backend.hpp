@@ -21,9 +21,9 @@
 
 namespace odosplat {
 
-/// What one keyframe outside the map adds to the uncertainty of its place: a window takes its oldest keyframe for
-/// known, and so knows nothing of drift. Standard deviations, as OdometryOptions::keyframe_covariance_factor finds
-/// them.
+/// What one keyframe outside the map adds to the uncertainty of its pose: a window takes its oldest keyframe as known,
+/// so that its covariance contains no drift. Standard deviations, before the covariance is multiplied by
+/// OdometryOptions::keyframe_covariance_factor.
 struct DriftOptions {
   double translation = 0.001;  // [m] along each axis
   double rotation = 0.0005;    // [rad] about each
@@ -58,34 +58,35 @@ struct TrackedImage {
 /// A tracked frame that should become a keyframe.
 struct KeyframeRequest {
   EvenFrame image;
-  std::shared_ptr<MapView> view;  // to look at in the map's place, as with a depth sensor; null: the map
+  std::shared_ptr<MapView> view;  // rendered in place of the map, for example a depth sensor; null: the map
   int id = 0;                     // the keyframe's number, if it is made
   int frame = 0;                  // counts images from 0
   double time = 0.0;              // [s]
   SE3 T_world_camera;
   Brightness brightness;
-  bool fresh = false;  // the keyframes that stand are not to be trusted: the window starts anew with this one
+  bool fresh = false;  // the existing keyframes are not to be trusted: the window starts anew with this one
 };
 
-/// What came of it.
+/// The result of a KeyframeRequest.
 struct KeyframeOutcome {
-  bool made = false;         // false: too little depth there; the window is as it was
-  bool anchored = false;     // held by the map's colours, or by keyframes that these held before
-  bool prefetched = false;   // made from the view that was rendered ahead
-  bool in_map = false;       // the map alone gives depth enough; else the camera goes by what it has seen on its way
-  double map_share = 0.0;    // share of the image where the map has depth
-  MapEvidence evidence;      // of the image and the map at the keyframe's pose
-  MisfitEffect misfit;       // of what is wrong with the camera on the keyframe's pose
-  std::string likely_cause;  // what that is; empty: nothing that stands out
+  bool made = false;                   // false: too little depth there; the window is as it was
+  bool anchored = false;               // aligned with the map's colours, or with remembered keyframes that were
+  bool prefetched = false;             // made from the view that was rendered ahead
+  bool in_map = false;                 // the map alone gives enough depth; false: depth is found by motion
+  double map_share = 0.0;              // share of the image where the map has depth
+  MapEvidence evidence;                // of the image and the map at the keyframe's pose
+  MisfitEffect misfit;                 // effect of errors of the camera's calibration on the keyframe's pose
+  std::string likely_cause;            // what is probably wrong with the camera; empty: nothing significant
   std::vector<ReferenceFrame> window;  // all keyframes as they are now, oldest first
 };
 
-/// The odometry's back end: renders the map where a frame wants to become a keyframe, makes the keyframe, anchors it,
-/// and adjusts the window of keyframes. Pixels that the map does not show become points by motion: every frame between
-/// narrows their depth (trace), and keyframes outside the map live on these alone. Where the map shows little,
-/// keyframes made before hold the camera, if they are found (KeyframeMemory). Once the camera has been outside, the
-/// map's depth is believed again from the first keyframe on that its colours, or these, hold in place; the keyframes
-/// made outside are moved along then. Not thread safe; uses parallel_for inside.
+/// The odometry's back end: renders the map where a frame is to become a keyframe, makes the keyframe, aligns it with
+/// the map (Anchor), and adjusts the window of keyframes. Pixels that the map does not show become points whose depth
+/// is found by motion: every tracked frame narrows it (trace), and keyframes outside the map have only such points.
+/// Where the map shows little, a keyframe is aligned with remembered keyframes, if these are found in its image
+/// (KeyframeMemory). Once the camera has been outside, the map's depth is used again from the first keyframe on that is
+/// aligned with the map's colours or with remembered keyframes; the keyframes made outside are corrected along with it.
+/// Not thread safe; uses parallel_for inside.
 class KeyframeBackend {
  public:
   /// map and aligner must outlive this.
@@ -98,8 +99,8 @@ class KeyframeBackend {
   /// lies within render_again_flow of it: no farther off than an anchored keyframe may lie from the view rendered for
   /// it.
   void prefetch(const SE3& T_world_camera);
-  /// A tracked frame, keyframe or not; before add, if it is to become one. Costs nothing where the map shows
-  /// everything.
+  /// Narrows the depth of immature points by a tracked frame. For a frame that is to become a keyframe, call it before
+  /// add. Costs nothing where the map shows everything.
   void trace(const TrackedImage& image);
 
   const Window& window() const { return window_; }
@@ -108,31 +109,36 @@ class KeyframeBackend {
 
  private:
   RenderedView seen_from(MapView& map, const SE3& T_world_camera);
-  /// A keyframe as it was made last, of several renderings maybe.
+  /// The latest attempt to make a keyframe; it may render the map several times.
   struct Attempt {
     MadeKeyframe made;
-    double corrected = 0.0;                      // [px] farthest that the map has moved it from where it was tracked
+    double corrected = 0.0;                      // [px] largest image motion by which the map has corrected the tracked
+                                                 // pose
     bool prefetched = false;                     // made from the view that was rendered ahead
-    std::optional<int> links;                    // to the map, if the keyframe is fit to be remembered
+    std::optional<int> links;                    // number of links to the map (KeyframeMemory), if the keyframe may be
+                                                 // remembered
     std::shared_ptr<const ViewPatches> patches;  // of the view that it was made from
   };
-  /// What poses near the view are confirmed by; null where the view has no colours or nothing is to be confirmed.
+  /// Patches by which poses near the view are confirmed; null where the view has no colours or confirmation is off.
   std::shared_ptr<const ViewPatches> patches_of(const RenderedView& view);
-  /// The keyframe as this view gives it. Makes image and gradients even where the map shows that they are not.
+  /// Makes a keyframe from this view. Removes the row gain from image and gradients if the view shows that there is
+  /// one.
   MadeKeyframe make_from(const RenderedView& view, const KeyframeRequest& request, const KeyframeContext& context,
                          EvenFrame& image, std::vector<GradientImage>& gradients);
   std::vector<Recollection> recall(const FramePyramid& image, const SE3& T_world_camera);
-  /// A keyframe where remembered ones, at least one, put it. view: from there.
+  /// Makes a keyframe at the pose found by remembered keyframes, of which there is at least one. view: rendered from
+  /// there.
   Attempt make_recalled(const RenderedView& view, std::vector<Recollection> recalled, const KeyframeRequest& request,
                         KeyframeContext context, EvenFrame& image, std::vector<GradientImage>& gradients);
-  /// Makes image and gradients even where the map shows that they are not.
+  /// Removes the row gain from image and gradients as make_from does.
   Attempt make(const KeyframeRequest& request, EvenFrame& image, std::vector<GradientImage>& gradients);
   void make_room();
-  /// Moves the keyframes that only their own motion has placed; far: what the map holds is elsewhere, and is dropped.
+  /// Corrects the keyframes that were placed by motion alone. far: those that the map placed are at a wrong place, and
+  /// are dropped.
   void come_back(const SE3& T_correction, bool far);
   std::vector<TransferredPoint> points_seen_from(const SE3& T_world_camera) const;
   std::vector<ReferenceFrame> references() const;
-  /// Of a keyframe's place: what its window says, and drift.
+  /// Covariance of a keyframe's pose: the window's, plus drift.
   Matrix6d covariance(const Keyframe& keyframe) const;
 
   Camera camera_;

@@ -14,14 +14,14 @@
 namespace odosplat {
 namespace {
 
-/// Where does the image lie in the rendered one? Levels 2 to 0 where the tracked pose is good to a few pixels.
+/// Aligns the image with the rendered one. Levels 2 to 0 are enough where the tracked pose is right to a few pixels.
 Alignment find_in_view(const TrackingReference& reference, const FramePyramid& image, const ImageAligner& aligner,
                        const AnchorOptions& options, const KeyframeContext& context) {
   if (context.first || context.distrust_map) {
     std::vector<SE3> guesses{SE3()};
     for (const SE3& turned : rotated_guesses(SE3(), options.far_off_angle)) guesses.push_back(turned);
     const Alignment found = aligner.align_best(reference, image, guesses, {});
-    // Of so many guesses one may fit a map of other colours by chance: then the caller's pose is the better one.
+    // With so many guesses, one may fit a map of wrong colours by chance: then the caller's pose is the better start.
     if (context.distrust_map || (found.finished && found.correlation >= options.far_off_correlation)) return found;
   }
   const PosePrior tracked = pose_prior(SE3(), options.bare_translation, options.bare_rotation);
@@ -103,7 +103,7 @@ ViewImages KeyframeMaker::without_border(const ViewImages& view, double share) c
   };
   cv::Mat1b holes;
   holes = view.depth <= 0.0F;
-  // Outside of the image nothing is known, and nothing assumed.
+  // Pixels outside the image do not count as holes.
   const cv::Scalar none = cv::Scalar::all(0);
   cv::erode(holes, holes, square(options_.hole * size));
   cv::dilate(holes, holes, square((options_.hole + 2.0 * options_.border) * size), {-1, -1}, 1, cv::BORDER_CONSTANT,
@@ -121,7 +121,7 @@ MadeKeyframe KeyframeMaker::make(const EvenFrame& image, std::span<const Gradien
   MadeKeyframe made;
   made.map_share = map_share(whole_view);
   const ViewImages view = without_border(whole_view, made.map_share);
-  // Where the map shows less, it has less to say: points are as dense as in a full image.
+  // If the map covers less of the image, there are fewer points: they are as dense as in a full image.
   made.point_share = std::min(1.0, map_share(view) / options_.full_share);
   made.reference = build_reference(pyramid, gradients, view, reference_selectors_.usual, options_.reference,
                                    options_.plane, &reference_selectors_.weak);
@@ -129,7 +129,7 @@ MadeKeyframe KeyframeMaker::make(const EvenFrame& image, std::span<const Gradien
     return static_cast<int>(made.reference.levels.front().size()) + others >= options_.min_points;
   };
   made.verifiable = options_.anchor.enabled && !view.color.empty();
-  // A map without colours is taken as it comes: once left, nothing would tell when to believe it again.
+  // A map without colours is always trusted: once left, nothing could show when its depth is right again.
   made.in_map = enough(0) && (made.map_share >= options_.min_map_share || !made.verifiable);
   made.keyframe = std::make_shared<Keyframe>();
   made.keyframe->T_world_camera = T_world_camera;
@@ -217,7 +217,7 @@ std::optional<ResidualWeights> KeyframeMaker::add_anchor(MadeKeyframe& made, con
     return brightness_samples(rendered.reference, *evened.even, alignment.T_target_host, alignment.brightness, 0);
   };
   std::vector<BrightnessSample> samples = take_samples();
-  // A large one takes two steps: each is right to second order only.
+  // A large blur takes two steps: each is right to second order only.
   for (int step = 0; step < 2; ++step) {
     const auto blur =
         estimate_blur(rendered.gradients.front(), samples, std::exp(alignment.brightness.a), options.blur);

@@ -20,36 +20,40 @@ namespace odosplat {
 
 struct AnchorOptions {
   bool enabled = true;
-  double noise = 5.0 / 255;  // [grey] residual of a rendered view at which it counts like a real image
-  double strength = 8.0;     // factor of its weight: one rendered view stands against six keyframes, and its points'
-                             // weights are below 1 where image and map agree less than well (agreement)
+  double noise = 5.0 / 255;  // [grey] root mean square residual of a rendered view up to which it counts like a real
+                             // image
+  double strength = 8.0;     // factor of its weight: one rendered view must balance six keyframes, and its points have
+                             // weights below 1 where image and map agree less well (agreement)
   // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2) of the rendered view's points in the window. Edges of a map
-  // are out of place by parts of a pixel, so that strong ones count less than in an image (docs/rules.md). The
-  // alignment before keeps the images' constant: by weak gradients alone, a map of other colours passes.
+  // are displaced by fractions of a pixel, so strong ones count less than in an image (docs/rules.md). The alignment
+  // before it uses the constant of images: with weak gradients alone, a map of wrong colours would be accepted.
   double gradient_weight = 10.0 / 255;
-  // Share of its points that must agree with the real image. The coarse map of a real room (20 dB) reaches 0.4 to 0.6
-  // and still holds the camera (docs/rules.md).
+  // Share of its points that must agree with the real image. A coarse map (20 dB) reaches 0.4 to 0.6 and still keeps
+  // the camera in place (docs/rules.md).
   double min_inliers = 0.4;
   double min_coverage = 0.3;       // share of its points that must be in view
   double max_rmse = 12.0 / 255;    // [grey]
-  double render_again_flow = 2.0;  // [px] a keyframe that the map moves further is rendered from its new place
-  double reset_flow = 4.0;         // [px] beyond, the rest of the window is believed to be wrong and is dropped
-  // A bare rendered view (ReferenceOptions) tells some directions of motion by weak shading, in which the map's colours
-  // err over many pixels together. Its alignment is held to the tracked pose.
+  double render_again_flow = 2.0;  // [px] if the map moves a keyframe further, the view is rendered again from its new
+                                   // pose
+  double reset_flow = 4.0;         // [px] if the map moves it further than this, the keyframes that the map placed
+                                   // before count as wrong and are dropped
+  // In a bare rendered view (ReferenceOptions) some directions of motion are determined by weak shading alone, where
+  // errors of the map's colours are correlated over many pixels. Its alignment is tied to the tracked pose.
   double bare_translation = 0.007;  // [m] standard deviation of that tie
   double bare_rotation = 0.0035;    // [rad] the same
   double far_off_angle = 0.04;      // [rad] of turned guesses, at the start and when the camera comes back into the map
 
-  // Of a start that is found from turned guesses; below, the start pose alone is tried. Right ones reach 0.8 to 0.96
-  // before they are rendered again, chance 0.68, and 0.83 in a map of inverted colours.
+  // Least correlation of a start that is found from turned guesses; if it is lower, only the given start pose is tried.
+  // Right starts reach 0.8 to 0.96 before the view is rendered again, chance matches 0.68, and 0.83 in a map of
+  // inverted colours.
   double far_off_correlation = 0.9;
 
   ToneOptions tone;  // of the image against the map's colours
   BlurOptions blur;  // the same
-  // Of the points in the window (docs/rules.md). In the alignment before it gains nothing.
+  // Weights of the rendered view's points in the window (docs/rules.md). The alignment before it gains nothing by them.
   ResidualWeightOptions agreement;
-  // Of the map's depth in the keyframe's own image: where image and map differ by more, something else may stand there.
-  // It acts by its square (docs/rules.md).
+  // Weights of the map's depth in the keyframe's own image: where image and map differ by more, the surface may be
+  // another one. The weight is squared (docs/rules.md).
   ResidualWeightOptions depth_agreement{.noise = 4.0 / 255};
 
   void check() const;
@@ -64,11 +68,12 @@ struct KeyframeMakerOptions {
   ImmaturePointOptions immature;
   AnchorOptions anchor;
   double smoothing = 0.8;      // [px] of all images before use, real and rendered; 0: none
-  double min_map_share = 0.5;  // of the image with map depth, below which the camera counts as outside: what is left of
-                               // the map lies at the image's rim and at the map's, where both are worst
-  double full_share = 0.8;     // of the image with map depth, from which on the window gets as many points as it wants
-  double hole = 0.015;         // of width + height: holes at least this wide in the map's depth are borders of the map
-  double border = 0.04;  // of width + height: how near to them depth is not used. Gaussians at the border were seen
+  double min_map_share = 0.5;  // share of the image with map depth below which the camera counts as outside: what is
+                               // left lies at the border of the image and of the map, where both are least accurate
+  double full_share = 0.8;     // share of the image with map depth from which on the window gets all points it wants
+  double hole = 0.015;         // share of width + height: holes at least this wide in the map's depth are borders of
+                               // the map
+  double border = 0.04;  // share of width + height: depth this near to a border is not used. Gaussians there were seen
                          // from few sides and stick out
   int min_points = 100;  // with depth, on full size, the map's or other keyframes'; fewer make no keyframe
 
@@ -79,17 +84,18 @@ struct KeyframeMakerOptions {
 struct KeyframeContext {
   bool first = false;         // there is no other keyframe to search in, and the pose is not a tracked one
   int other_points = 0;       // estimated points of other keyframes that this image sees; they count towards min_points
-  bool distrust_map = false;  // the camera has been outside the map: where the map was rendered from may be far off, so
-                              // that its depth is used only if the rendered image is found in the real one
+  bool distrust_map = false;  // the camera has been outside the map: the pose that the map was rendered from may be far
+                              // off, so that its depth is used only if the rendered image is found in the real one
 };
 
-/// What came of the attempt to make a keyframe.
+/// The result of the attempt to make a keyframe.
 struct MadeKeyframe {
-  std::shared_ptr<Keyframe> keyframe;  // null: too little depth there. Its reference has the map's points alone
-  TrackingReference reference;         // the keyframe's, for the caller to complete and to give to it
-  bool in_map = false;                 // the map alone shows enough, and is believed
+  std::shared_ptr<Keyframe> keyframe;  // null: too little depth there
+  TrackingReference reference;         // the keyframe's, with the map's points alone; the caller completes it and puts
+                                       // it into the keyframe
+  bool in_map = false;                 // the map alone shows enough, and its depth is used
   bool verifiable = false;             // the map has colours to be compared with the image
-  double point_share = 0.0;            // of the window's points wanted that the map is asked for
+  double point_share = 0.0;            // share of the window's wanted points that the map should give
   double map_share = 0.0;              // share of the image with map depth
   bool anchored = false;
   std::optional<EvenFrame> evened;  // where the rendered view shows that the image's rows are not alike: the image as
@@ -121,7 +127,7 @@ class KeyframeMaker {
   /// Returns how far the map's depth is to be trusted; none if there is no anchor.
   std::optional<ResidualWeights> add_anchor(MadeKeyframe& made, const EvenFrame& image, const ViewImages& view,
                                             const ImageAligner& aligner, const KeyframeContext& context);
-  /// What the aligner and the window need of a rendered view, in other grey values than its own if these are toned.
+  /// What the aligner and the window need of a rendered view. Its grey values may have been changed to match the image.
   struct RenderedReference {
     std::vector<GradientImage> gradients;
     TrackingReference reference;

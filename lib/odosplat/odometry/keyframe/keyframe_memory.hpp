@@ -13,13 +13,14 @@ namespace odosplat {
 /// Values were chosen by the number of frames until the camera is within 5 mm again when it returns (docs/rules.md).
 struct KeyframeMemoryOptions {
   bool enabled = true;
-  double map_share = 0.9;         // of the image with map depth, below which remembered keyframes are asked
+  double map_share = 0.9;         // share of the image with map depth below which remembered keyframes are used
   int max_links = 1;              // keyframes of more links to the map are not kept
-  double likeness = 0.3;          // least of a keyframe that is asked
-  double known = 0.92;            // likeness of one that is kept, from which on a keyframe says nothing new
+  double likeness = 0.3;          // least likeness of a keyframe that is tried
+  double known = 0.92;            // likeness to a kept keyframe from which on a new one is not kept, as it adds nothing
   double parallax = 0.3;          // [rad] between a point's rays in both images at which it counts 1/e towards likeness
-  int views = 3;                  // most that hold one image: each errs by some millimetres over 50 frames
-  double strength = 2.0;          // factor of their weight in the window, all together; shared out by squared likeness
+  int views = 3;                  // most keyframes that one image is aligned with: each is wrong by some millimetres
+                                  // over 50 frames
+  double strength = 2.0;          // sum of their weights in the window; shared out by squared likeness
   double min_inliers = 0.6;       // of the alignment with a remembered keyframe
   double min_correlation = 0.98;  // the same
   double max_rmse = 8.0 / 255;    // [grey] the same
@@ -31,24 +32,25 @@ struct KeyframeMemoryOptions {
 /// A remembered keyframe found in an image.
 struct Recollection {
   Anchor anchor;       // the keyframe as it was made, its pose and depth taken as known
-  SE3 T_world_camera;  // where it puts the image's camera
+  SE3 T_world_camera;  // pose of the image's camera, by alignment with the keyframe
   double flow = 0.0;  // [px] root mean square motion of its points in the image from where the camera was thought to be
   int links = 0;      // between it and the map
 };
 
-/// Keyframes that the map held, kept for where it shows little: at its border, a map is at its worst, and a real image
-/// taken there says more, with the depth that its window gave it. So a camera that leaves the map is held by what it
-/// saw last, and finds itself by that when it returns. Not thread safe.
+/// Keyframes that were aligned with the map, kept for places where the map shows little. At its border a map is least
+/// accurate, and a real image taken there, with the depth that its window gave it, determines a pose better. A camera
+/// that leaves the map is aligned with the last of these keyframes, and with the same ones when it returns. Not thread
+/// safe.
 class KeyframeMemory {
  public:
   KeyframeMemory(const Camera& camera, const KeyframeMemoryOptions& options);
 
-  /// Keeps a keyframe with reference and anchors unless it says nothing new. links: 0 if the map held it in full view;
-  /// else one more than the least of the recollections that hold it.
+  /// Keeps a keyframe that has its reference, unless a kept one shows the same. links: 0 if it was aligned with the map
+  /// in full view; else one more than the fewest of the recollections that it was aligned with.
   void remember(std::shared_ptr<const Keyframe> keyframe, int links);
-  /// Its pose has turned out to be wrong.
+  /// Removes a keyframe whose pose has turned out to be wrong.
   void forget(const Keyframe& keyframe);
-  /// What is found in the image of a camera near T_world_camera [m], the likest first; none if nothing is.
+  /// Kept keyframes that are found in the image of a camera near T_world_camera [m], the likest first; none if none is.
   std::vector<Recollection> recall(const FramePyramid& image, const SE3& T_world_camera, const ImageAligner& aligner);
 
   std::size_t size() const { return kept_.size(); }
@@ -60,7 +62,7 @@ class KeyframeMemory {
     int links = 0;
     int last_use = 0;
   };
-  /// Share of the keyframe's points that a camera there sees, less the more its rays have turned.
+  /// Share of the keyframe's points that a camera there sees; each counts less the more its ray has turned.
   double likeness(const Keyframe& keyframe, const SE3& T_world_camera) const;
 
   Camera camera_;

@@ -8,10 +8,12 @@
 namespace odosplat {
 
 struct KeyframePolicyOptions {
-  double translation_flow = 0.04;  // per (width + height) px of root mean square flow without rotation: full score
+  double translation_flow = 0.04;  // root mean square flow without rotation that gives a score of 1, per (width +
+                                   // height) px
   double full_flow = 0.08;         // the same of the whole flow
-  double log_gain = 0.5;           // |a| of the relative brightness: full score
-  double rmse_growth = 2.0;        // residual over that of the first frame after the keyframe: new keyframe at once
+  double log_gain = 0.5;           // |a| of the relative brightness that gives a score of 1
+  double rmse_growth = 2.0;        // residual over that of the first frame after the keyframe from which on a keyframe
+                                   // is due at once
   double min_coverage = 0.6;       // share of the reference in view below which a keyframe is due at once
 
   void check() const;

@@ -15,9 +15,9 @@
 namespace odosplat {
 
 /// The back end on a thread of its own. At most one request waits, at most one is in the making, and the result of one
-/// must be taken before another is begun: nothing grows, however slow the back end is. What it throws is thrown again
-/// by take() or wait(), and the thread goes on. All calls from one thread, the front end's; the back end and its map
-/// belong to the inner thread from construction on, except while idle() holds.
+/// must be taken before another is begun: the use of memory is bounded, however slow the back end is. Exceptions of the
+/// back end are rethrown by take() or wait(), and the thread goes on. All calls must come from one thread, the front
+/// end's; the back end and its map belong to the inner thread from construction on, except while idle() holds.
 class KeyframeThread : public KeyframeWorker {
  public:
   /// backend must outlive this, and nobody else may use it or its map.
@@ -48,8 +48,8 @@ class KeyframeThread : public KeyframeWorker {
   std::optional<FinishedKeyframe> take_locked();
 
   KeyframeBackend& backend_;
-  int made_ = 0;                   // keyframes; the inner thread's
-  std::vector<StageTime> stages_;  // with the last keyframe that was taken; the front end's
+  int made_ = 0;                   // number of keyframes made; used by the inner thread only
+  std::vector<StageTime> stages_;  // as of the last keyframe that was taken; used by the front end only
   std::mutex mutex_;
   std::condition_variable wake_;  // something is asked for
   std::condition_variable rest_;  // something is done
@@ -59,9 +59,9 @@ class KeyframeThread : public KeyframeWorker {
   std::optional<FinishedKeyframe> finished_;
   std::exception_ptr failure_;
   bool making_ = false;
-  bool busy_ = false;  // with something else
+  bool busy_ = false;  // with anything but a keyframe
   bool stop_ = false;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // declared last: it uses all of the above
 };
 
 }  // namespace odosplat

@@ -9,7 +9,7 @@
 
 namespace odosplat {
 
-/// A keyframe that was asked for, and what came of it.
+/// A keyframe that was asked for, and the result.
 struct FinishedKeyframe {
   KeyframeRequest request;
   KeyframeOutcome outcome;
@@ -22,12 +22,12 @@ class KeyframeWorker {
  public:
   virtual ~KeyframeWorker() = default;
 
-  /// Asks for a keyframe. Returned is what came of it, or none where it is made later: then take() or wait() has it. If
-  /// one is in the making or waits to be taken, the request is dropped. wait: do not return before it is made, or was
-  /// found not to be one.
+  /// Asks for a keyframe. Returns the result, or none if it is made later: then take() or wait() returns it. If one is
+  /// in the making or waits to be taken, the request is dropped. wait: return only when the keyframe was made or turned
+  /// out not to be one.
   virtual std::optional<FinishedKeyframe> make(KeyframeRequest request, bool wait) = 0;
 
-  /// Hands on a tracked frame for KeyframeBackend::trace, which a keyframe asked for later will have seen.
+  /// Hands on a tracked frame for KeyframeBackend::trace, which is done before any keyframe that is asked for later.
   virtual void observe(TrackedImage image) = 0;
 
   /// Whether the map can be rendered ahead while frames are tracked.
@@ -38,11 +38,11 @@ class KeyframeWorker {
   /// The keyframe that was finished since the last call and not returned by make(), if any.
   virtual std::optional<FinishedKeyframe> take() = 0;
 
-  /// Waits until nothing is asked for any more, then as take(). Until the next call of another function the back end
-  /// and its map are the caller's.
+  /// Waits until nothing is left to do, then as take(). Until the next call of another function the caller may use the
+  /// back end and its map.
   virtual std::optional<FinishedKeyframe> wait() = 0;
 
-  /// Times of the back end's stages, up to the last keyframe that was returned at least.
+  /// Times of the back end's stages, at least up to the last keyframe that was returned.
   virtual std::vector<StageTime> stages() const = 0;
 
  protected:

@@ -21,7 +21,7 @@ struct Fit {
 /// splines: their number, 0: the alignment alone.
 Fit fit(const std::vector<BrightnessSample>& samples, int splines, const CurveFitOptions& options) {
   const Eigen::Index size = 8 + splines;
-  // Of the squared difference of neighbouring coefficients.
+  // Weight of the squared difference of neighbouring coefficients.
   const double alike = options.noise * options.noise / (options.sigma * options.sigma);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
   const auto residual = [&](const BrightnessSample& sample) {

@@ -32,12 +32,12 @@ struct BrightnessSample {
   double u = 0.0;  // [px] in the reference, on that level
   double v = 0.0;
   double height = 0.0;    // 0..1 over the image's rows
-  Splines curve;          // for a fit: what of the curve this sample sees
+  Splines curve;          // for a fit: the curve's splines at this sample
   double by_curve = 0.0;  // for a fit: derivative of the residual by the curve there
 };
 
-/// The points in view that are not clipped. level: of both; half size is enough for a smooth curve, and forgiving where
-/// the pose is off.
+/// The points in view that are not clipped. level: of both; half size is enough for a smooth curve, and tolerates a
+/// pose that is a little wrong.
 std::vector<BrightnessSample> brightness_samples(const TrackingReference& reference, const FramePyramid& target,
                                                  const SE3& T_target_host, const Brightness& brightness,
                                                  std::size_t level = 1);
@@ -47,15 +47,15 @@ struct CurveFitOptions {
   double sigma;      // prior of the difference of neighbouring coefficients around 0
   double noise;      // [grey] of one residual
   double huber;      // [grey] residuals beyond weigh less
-  double explained;  // cost with a curve over the cost without one, above which it is not believed
+  double explained;  // cost with a curve over the cost without one, above which the curve is rejected
 
   /// Throws InputError naming the field of `owner`.
   void check(const std::string& owner) const;
 };
 
-/// Coefficients (spans + 3, mean near 0: the alignment takes it) of the curve that the samples see, fitted robustly
-/// together with a small change of the alignment, so that a pose that the curve has moved does not hide it. None: it is
-/// not believed. Pure function.
+/// Coefficients (spans + 3; their mean is near 0, as gain and offset belong to the alignment) of the curve that the
+/// samples show, fitted robustly together with a small change of the alignment, so that an alignment which the curve
+/// has shifted does not hide it. None: the curve is rejected. Pure function.
 std::optional<Eigen::VectorXd> fit_curve(const std::vector<BrightnessSample>& samples, const CurveFitOptions& options);
 
 }  // namespace odosplat

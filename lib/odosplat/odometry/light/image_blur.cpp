@@ -97,7 +97,7 @@ std::optional<Eigen::Matrix2d> estimate_blur(const GradientImage& host, const st
 }
 
 GrayImage apply_blur(const GrayImage& image, const Eigen::Matrix2d& covariance) {
-  // A kernel of one pixel's width would be sampled as nothing or as too much: it is widened, and so is not quite thin.
+  // A kernel much thinner than a pixel cannot be sampled: it is widened a little.
   const Eigen::Matrix2d information = (covariance + 0.02 * Eigen::Matrix2d::Identity()).inverse();
   const int reach_u = static_cast<int>(std::ceil(3.0 * std::sqrt(covariance(0, 0)))) + 1;
   const int reach_v = static_cast<int>(std::ceil(3.0 * std::sqrt(covariance(1, 1)))) + 1;

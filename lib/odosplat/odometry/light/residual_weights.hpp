@@ -11,9 +11,9 @@ namespace odosplat {
 
 struct ResidualWeightOptions {
   int columns = 20;             // of square blocks over the image's width
-  double noise = 1.5 / 255;     // [grey] root mean square residual of a block up to which its points weigh in full
+  double noise = 1.5 / 255;     // [grey] root mean square residual of a block up to which its points have full weight
   double outlier = 40.0 / 255;  // [grey] residuals count as at most this
-  double prior = 4.0;           // points with that noise that every block is given
+  double prior = 4.0;           // number of points with that noise that are added to every block
 
   void check() const;
 };
@@ -29,9 +29,9 @@ struct ResidualWeights {
   double at(double u, double v) const;
 };
 
-/// How far a reference and the image that it was aligned with agree, place by place: inverse variance of the residuals
-/// of a block's points. A map errs by regions: relief finer than its cloud, surfaces that few images saw. camera: the
-/// reference's, full size; samples: of its level 0. Pure function.
+/// How well a reference and the image that was aligned with it agree, block by block: inverse variance of the residuals
+/// of a block's points. A map's errors are regional: relief finer than its cloud, surfaces that few images saw. camera:
+/// the reference's, full size; samples: of its level 0. Pure function.
 ResidualWeights residual_weights(const Camera& camera, const std::vector<BrightnessSample>& samples,
                                  const ResidualWeightOptions& options);
 

@@ -10,8 +10,8 @@
 
 namespace odosplat {
 
-/// Gain of every row of a full-size image against what an even one would be, mean 1: lamps that flicker expose the rows
-/// of a rolling shutter differently. Empty: all rows alike.
+/// Gain of every row of a full-size image against that of an evenly exposed one, mean 1: flickering lamps expose the
+/// rows of a rolling shutter differently. Empty: all rows alike.
 using RowGain = std::vector<float>;
 
 struct RowGainOptions {
@@ -20,19 +20,19 @@ struct RowGainOptions {
   double sigma = 0.1;        // prior of the difference of neighbouring coefficients around 0
   double noise = 5.0 / 255;  // [grey] of one residual
   double huber = 9.0 / 255;  // [grey] residuals beyond weigh less
-  double least = 0.03;       // root mean square over the rows, below which a row gain is not believed to be one: what
-                             // shines and what a map shows imperfectly look like a little of it
-  double explained = 0.5;    // cost with a row gain over the cost without one, above which it is not believed either: a
-                             // wrong pose or a damaged map looks like a row gain, too, but is not mended by one
-  double same = 0.003;       // root mean square change that is not worth another alignment
+  double least = 0.03;       // root mean square over the rows, below which a row gain is rejected: reflections and
+                             // errors of the map look like a small one
+  double explained = 0.5;    // cost with a row gain over the cost without one, above which it is rejected, too: a wrong
+                             // pose or a damaged map also looks like a row gain, but is not explained by one
+  double same = 0.003;       // root mean square change below which the image is not aligned again
 
   void check() const;
 };
 
 /// The row gain of `target` against the reference that it was aligned with: a smooth curve, fitted robustly to the
 /// reference's points together with a small change of pose and brightness, so that a pose which the uneven light has
-/// moved does not hide it. Empty if all rows may well be alike, and if too few points are in view. target: as it was
-/// taken; brightness: what it would have against the reference if all rows were alike. Pure function.
+/// shifted does not hide it. Empty if the rows do not clearly differ, and if too few points are in view. target: as it
+/// was taken; brightness: what it would have against the reference if all rows were alike. Pure function.
 RowGain estimate_row_gain(const TrackingReference& reference, const FramePyramid& target, const SE3& T_target_host,
                           const Brightness& brightness, const RowGainOptions& options);
 

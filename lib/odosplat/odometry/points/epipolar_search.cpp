@@ -92,7 +92,7 @@ class TargetPattern {
   float reach_ = 0.0F;
 };
 
-/// The part of a -> b that lies in the box [0, size]; empty if first > second.
+/// The part of a -> b, as shares of it, that lies at least `border` inside the image; empty if first > second.
 std::pair<double, double> clip(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double border,
                                const cv::Size& size) {
   double from = 0.0;
@@ -131,8 +131,8 @@ SearchResult search_epipolar_line(const ImmaturePoint& point, const SE3& T_targe
   // The point at inverse depth q is (a + t q) / q: the image of a + t q.
   const Eigen::Vector3d a = T_target_host.rotation() * camera.ray(point.u, point.v);
   const Eigen::Vector3d& t = T_target_host.translation();
-  // The pattern's scale, 1 / (a + t q).z, bounds the depths at which it can be recognised; the camera's plane even
-  // more.
+  // The pattern can be recognised only within a range of scales, 1 / (a + t q).z, which limits the inverse depth; these
+  // limits also keep the point in front of the camera.
   double q_far = point.min_q;
   double q_near = point.max_q;
   if (!(a.z() > 0.0)) return result;
@@ -162,7 +162,7 @@ SearchResult search_epipolar_line(const ImmaturePoint& point, const SE3& T_targe
   to = std::min(to, from + longest / whole);
   const Eigen::Vector2d direction = line / whole;
   const Eigen::Vector2f along = direction.cast<float>();
-  // In the host's image the line's direction is turned back.
+  // The line's direction in the host's image.
   const Eigen::Vector2f in_host = (turn.transpose() * along).normalized();
   const Eigen::Vector2f across(-in_host.y(), in_host.x());
   const float with_gradient = in_host.dot(point.tensor * in_host);

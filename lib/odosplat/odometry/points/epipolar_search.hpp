@@ -20,7 +20,7 @@ struct EpipolarSearchOptions {
   double max_error = 10.0;      // [px] matches less certain are useless
   double min_scale = 0.66;      // of the pattern between the two images; beyond, it no longer looks the same
   double max_scale = 1.5;
-  int distinct_radius = 2;  // [px] the second-best match counts from here on
+  int distinct_radius = 2;  // [px] least distance between the best match and the one that counts as second best
 
   void check() const;
 };
@@ -35,8 +35,8 @@ struct SearchResult {
 
 /// Searches a pixel of a host along its epipolar line in another image, for inverse depths min_q to max_q.
 /// Source: Engel, Sturm, Cremers 2013 and DSO: steps of one pixel over the 8-pixel pattern, the best one refined by
-/// Gauss-Newton along the line; error along the line from the angle between line and gradient. A search longer than
-/// max_length starts at the far end. brightness: the target's relative to the host's. Pure function.
+/// Gauss-Newton along the line; error along the line from the angle between line and gradient. If the line is longer
+/// than max_length, only its far end is searched. brightness: the target's relative to the host's. Pure function.
 SearchResult search_epipolar_line(const ImmaturePoint& point, const SE3& T_target_host, const Camera& camera,
                                   const GrayImage& target, const Brightness& brightness,
                                   const EpipolarSearchOptions& options);

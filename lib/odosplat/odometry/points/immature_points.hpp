@@ -17,9 +17,10 @@ namespace odosplat {
 struct ImmaturePointOptions {
   int points = 800;             // wanted of a keyframe that the map does not show at all
   double min_share = 0.02;      // share of the image without map depth below which none are sought
-  double min_depth = 0.25;      // [m] a point of which nothing is known lies between the two
+  double min_depth = 0.25;      // [m] a point of unknown depth is searched for from min_depth to max_depth
   double max_depth = 40.0;      // [m]
-  double depth_interval = 0.2;  // share of the map's depth to both sides, where its points are searched for as well
+  double depth_interval = 0.2;  // half width of the interval in which points with depth from the map are searched for,
+                                // as a share of that depth
   int max_outliers = 2;         // searches in a row without a match that end a point
   EpipolarSearchOptions search;
 
@@ -29,9 +30,9 @@ struct ImmaturePointOptions {
 /// The pixel of an image with its pattern; the interval of inverse depth is left to the caller.
 ImmaturePoint make_immature_point(const GradientImage& gradient, const cv::Point& pixel, double gradient_weight);
 
-/// Pixels of high gradient where `depth` has none, with the widest interval; fewer than options.points in proportion to
-/// the share of such pixels. gradients: of the host's image, full size first. depth: of its size, or empty for a map
-/// that shows nothing. May return none.
+/// Pixels of high gradient where `depth` has none, with the widest interval; about options.points times the share of
+/// pixels without depth. gradients: of the host's image, full size first. depth: of its size, or empty for a map that
+/// shows nothing. May return none.
 std::vector<ImmaturePoint> make_immature_points(std::span<const GradientImage> gradients, const cv::Mat1f& depth,
                                                 double gradient_weight, PixelSelector& selector,
                                                 const ImmaturePointOptions& options);

@@ -82,7 +82,7 @@ std::optional<SurfacePoint> fit_surface(const Camera& camera, const DepthImage& 
   if (!flat) {
     m << line.x() * camera.fx, line.y() * camera.fy, 0.0;
     m.z() = q - m.x() * ray.x() - m.y() * ray.y();
-    // A plane nearly seen from its side tells nothing about depth: the fit's slope is noise there.
+    // Of a plane seen nearly edge-on, the fitted slope is noise: it is taken as facing the camera.
     if (std::abs(m.dot(ray)) < options.min_cosine * m.norm() * ray.norm()) m = {0.0, 0.0, q};
   }
   double own_sigma = options.relative_floor / q;

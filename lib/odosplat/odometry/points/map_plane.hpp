@@ -22,7 +22,7 @@ struct MapPlaneOptions {
   double same_surface = 0.04;        // relative difference of inverse depth within one surface
   double min_support = 0.35;         // share of the window that must lie on the surface
   double max_relative_sigma = 0.05;  // sigma / depth above which a pixel has no usable depth
-  double relative_floor = 0.003;     // of depth: no sigma is believed to be smaller
+  double relative_floor = 0.003;     // share of depth that sigma is raised to if it is smaller
   double min_cosine = 0.15;          // between normal and ray; flatter planes are taken as facing the camera
 
   void check() const;
@@ -38,7 +38,8 @@ struct SurfacePoint {
 
 /// Fits inverse depth as a linear function of the pixel (exact for planes) over the window around (x, y), which is
 /// sampled every `stride` pixels. At depth edges the nearest surface is taken: an image edge moves with the surface in
-/// front. sigma may be empty. Returns nothing where the map has no depth or does not trust it. Pure function.
+/// front. sigma may be empty. Returns nothing where the map has no depth, too large a sigma or too small a surface.
+/// Pure function.
 std::optional<SurfacePoint> fit_surface(const Camera& camera, const DepthImage& depth, const cv::Mat1f& sigma, int x,
                                         int y, int stride, const MapPlaneOptions& options);
 

@@ -23,7 +23,7 @@ struct SelectorOptions {
   void check() const;
 };
 
-/// For bare images: the gradients of plaster and of shading, as far as they stand out of the noise.
+/// For bare images: picks weak gradients of plaster and of shading, as far as they exceed the noise.
 inline SelectorOptions weak_selector_options() {
   SelectorOptions options;
   options.quantile = 0.1;
@@ -36,9 +36,9 @@ inline SelectorOptions weak_selector_options() {
 /// that about as many pixels are found as wanted.
 /// Source: Engel, Koltun, Cremers 2018 (DSO), section 3.2: region threshold = median gradient + offset, smoothed over
 /// 3x3 regions; in each cell of side d the pixel of the largest gradient along a random direction; where a cell of 2d
-/// (4d) finds none, a weaker one judged on the next coarser gradients. Differs: pixels outside `mask` do not exist.
-/// The same input gives the same pixels; the call keeps the last cell size as first guess, so order of calls matters.
-/// Not thread safe (scratch memory).
+/// (4d) finds none, a weaker one judged on the next coarser gradients. Differs: pixels outside `mask` are ignored. The
+/// same input gives the same pixels; the call keeps the last cell size as first guess, so order of calls matters. Not
+/// thread safe (scratch memory).
 class PixelSelector {
  public:
   explicit PixelSelector(const SelectorOptions& options);
@@ -51,8 +51,8 @@ class PixelSelector {
   cv::Mat1f thresholds(const GradientImage& gradient) const;
 
  private:
-  /// A byte a pixel: a bit for each of up to three levels whose gradient there is above the pixel's threshold. 0 where
-  /// no pixel may be picked.
+  /// One byte per pixel: a bit for each of up to three levels whose gradient there is above the pixel's threshold. 0
+  /// where no pixel may be picked.
   cv::Mat1b candidates(std::span<const GradientImage> gradients, const cv::Mat1b& mask) const;
   std::vector<cv::Point> pick(std::span<const GradientImage> gradients, const cv::Mat1b& levels, int cell) const;
 

@@ -93,7 +93,7 @@ ViewSignature PlaceIndex::signature(const GrayImage& gray) const {
 }
 
 std::vector<PlaceMatch> PlaceIndex::match(const ViewSignature& image) const {
-  // Comparing corners takes a millisecond or two a place: in a large map only those that may be it are worth that.
+  // Comparing corners takes a millisecond or two per place: in a large map it is done for the likeliest places only.
   constexpr std::size_t most_by_corners = 64;
   std::vector<PlaceMatch> matches(places_.size());
   parallel_for(static_cast<int>(places_.size()), 8, [&](int begin, int end) {

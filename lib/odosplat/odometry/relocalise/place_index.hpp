@@ -16,8 +16,8 @@ namespace odosplat {
 struct PlaceIndexOptions {
   int width = 320;            // [px] of the widest image that places are rendered and images are looked up in
   int thumbnail_width = 32;   // [px]
-  int max_shift = 8;          // [thumbnail px] a view may lie beside its place
-  int features = 500;         // ORB keypoints wanted a view
+  int max_shift = 8;          // [thumbnail px] largest shift between an image and the view of its place
+  int features = 500;         // ORB keypoints wanted per view
   int corner_threshold = 6;   // [of 255] contrast of a corner; rendered walls have little
   double ratio = 0.85;        // a match is kept if its distance is at most this share of the second best's
   double min_coverage = 0.3;  // share of a place's view with depth, below which the place is not kept
@@ -31,7 +31,7 @@ struct ViewSignature {
   cv::Mat1f thumbnail;               // grey, blurred
   cv::Mat1b thumbnail_valid;         // not 0 where the map shows something
   std::vector<cv::Point2f> corners;  // [px] of the index's camera
-  cv::Mat1b descriptors;             // a row a corner
+  cv::Mat1b descriptors;             // one row per corner
 };
 
 /// A corner of the image that is, perhaps, a point of the map.
@@ -65,13 +65,14 @@ class PlaceIndex {
 
   /// `gray` is of camera()'s size, 0..1.
   ViewSignature signature(const GrayImage& gray) const;
-  /// Every place kept, in their order. Corners only of those that the thumbnails favour.
+  /// Compares with every place kept, in their order. Corners are compared only for those with the most similar
+  /// thumbnails.
   std::vector<PlaceMatch> match(const ViewSignature& image) const;
 
  private:
   struct PlaceView {
     ViewSignature signature;
-    std::vector<Eigen::Vector3d> points_world;  // a corner each
+    std::vector<Eigen::Vector3d> points_world;  // one per corner
   };
   void compare_thumbnails(const ViewSignature& image, PlaceMatch& match) const;
   void match_points(const ViewSignature& image, PlaceMatch& match) const;

@@ -38,7 +38,7 @@ struct PairSums {
   }
   double spread_a() const { return std::sqrt(std::max(0.0, aa / n - a / n * a / n)); }
   double spread_b() const { return std::sqrt(std::max(0.0, bb / n - b / n * b / n)); }
-  /// Of two that hardly vary: close to 0, not a ratio of roundings.
+  /// For two that hardly vary: close to 0, not a ratio of rounding errors.
   double correlation() const {
     constexpr double floor = 0.5 / 255;
     return (ab / n - a / n * b / n) / (std::max(floor, spread_a()) * std::max(floor, spread_b()));

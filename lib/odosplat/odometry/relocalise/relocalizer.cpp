@@ -13,8 +13,7 @@
 namespace odosplat {
 namespace {
 
-/// The pose of a camera that sees image (u) where the view from T_world_view shows (u + shift), by turning alone: guess
-/// for T_target_host.
+/// Guess of T_target_host by rotation alone, for an image whose pixel u shows what the view shows at u + shift.
 SE3 turned_by_shift(const Camera& camera, const Eigen::Vector2d& shift) {
   return {so3_exp({shift.y() / camera.fy, -shift.x() / camera.fx, 0.0}), Eigen::Vector3d::Zero()};
 }

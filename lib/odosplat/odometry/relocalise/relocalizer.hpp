@@ -27,14 +27,17 @@ struct RelocalizerOptions {
   double min_spread = 3.0 / 255;     // [grey] of the image; one of a single colour is not looked up
   int candidates = 4;                // places tried by thumbnail, and as many by corners
   int finalists = 3;                 // poses that are rendered again and verified
-  double same_distance = 0.1;        // [m] poses within this and same_angle are one
+  double same_distance = 0.1;        // [m] poses within this and same_angle count as one
   double same_angle = 5.0 / 57.3;    // [rad]
   double ambiguity = 0.1;            // score by which the best pose must beat every other one
   double min_inliers = 0.4;          // share of the points in view that must agree
-  double max_position_sigma = 0.05;  // [m] standard deviation that alignment claims, times root of covariance_factor
-  double covariance_factor = 20.0;   // neighbouring pixels err alike, which the information does not know
-  double disturbance = 0.02;         // [m] along and half as many rad about each axis: from there alignment
-  double return_distance = 0.02;     // [m] must come back to within this
+  double max_position_sigma = 0.05;  // [m] largest standard deviation of the position by alignment, times root of
+                                     // covariance_factor
+  double covariance_factor = 20.0;   // errors of neighbouring pixels are correlated, which the information does not
+                                     // contain
+  double disturbance = 0.02;         // [m] along, and half as many rad about, each axis: a second alignment starts
+                                     // there
+  double return_distance = 0.02;     // [m] and must end within this distance of the first
 
   /// Throws InputError naming the field.
   void check() const;
@@ -50,12 +53,12 @@ struct Relocalization {
   std::string reason;         // why not found; empty if found
 };
 
-/// Finds the camera in a map without a start pose, or says that it cannot.
-/// Four steps. The places most like the image, by thumbnail and by corners (PlaceIndex). A pose from each: P3P on
-/// corners with rendered depth of the place and its neighbours, or the place's own. Direct alignment (ImageAligner) of
-/// the image with the map rendered at that pose, twice. Verification on squares of the image that were held back from
-/// alignment (PoseVerifier); besides, the pose must be well determined, must be found again from a disturbed start, and
-/// no other place may look alike.
+/// Finds the camera in a map without a start pose, or reports that it cannot, in four steps:
+/// 1. The places most like the image, by thumbnail and by corners (PlaceIndex).
+/// 2. A pose from each: P3P on corners with rendered depth of the place and its neighbours, or the place's own.
+/// 3. Direct alignment (ImageAligner) of the image with the map rendered at that pose, twice.
+/// 4. Verification on squares of the image that were held back from alignment (compare_with_map); besides, the pose
+///    must be well determined, must be found again from a disturbed start, and no other place may look alike.
 /// The first call renders every place. Images and views are at most options.index.width wide, so memory and time do not
 /// grow with the camera's size. Deterministic: the same bits for any number of threads. map must outlive this. Not
 /// thread safe.
@@ -75,7 +78,7 @@ class Relocalizer {
   Relocalization find(const GrayImage& image, const SE3& T_world_near);
 
  private:
-  /// A guess of the camera's pose, then what alignment made of it.
+  /// A guess of the camera's pose, and the result of aligning the image from there.
   struct Candidate {
     SE3 T_world_view;                // where the map is rendered from
     std::vector<SE3> T_target_host;  // guesses for the image against that view
@@ -85,12 +88,12 @@ class Relocalizer {
   struct Finalist {
     Candidate candidate;
     PoseEvidence evidence;
-    std::string fault;  // why it is not believed
+    std::string fault;  // why it is not accepted
   };
 
   Relocalization look_up(const GrayImage& image, const std::optional<SE3>& T_world_near);
   std::vector<Candidate> propose(const GrayImage& gray, const std::optional<SE3>& T_world_near) const;
-  /// The map's view as something to align with, without what is held back for verification.
+  /// The points of a rendered view to align with, without those held back for verification.
   TrackingReference reference_of(const FramePyramid& rendered, const ViewImages& view) const;
   void align(std::vector<Candidate>& candidates, const FramePyramid& image);
   std::vector<Candidate> distinct(std::vector<Candidate> candidates, std::size_t most) const;

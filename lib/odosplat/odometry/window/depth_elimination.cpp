@@ -5,7 +5,7 @@
 namespace odosplat {
 namespace {
 
-/// [m^2] information of an inverse depth below which it is not known at all: a standard deviation of 30 /m.
+/// [m^2] information of an inverse depth below which it counts as unknown: a standard deviation of 30 /m.
 constexpr double least_information = 1e-3;
 
 Eigen::VectorXd inverse_of(const HostDepths& depths, double damping) {

@@ -8,17 +8,18 @@
 
 namespace odosplat {
 
-/// The estimated offsets of one keyframe's points in a window's normal equations. Each stands in its own row and is
-/// coupled to keyframes only, never to another offset: they can be eliminated one by one.
+/// The estimated offsets of one keyframe's points in a window's normal equations. Each has its own row and is coupled
+/// with keyframes only, never with another offset: they can be eliminated one by one.
 struct HostDepths {
   std::vector<std::size_t> points;  // indices into the keyframe's points
-  Eigen::VectorXd H;                // own entry, a point each
+  Eigen::VectorXd H;                // diagonal entry of each point
   Eigen::VectorXd g;
-  Eigen::MatrixXd cross;  // a column a point, as many rows as the window has parameters of keyframes
+  Eigen::MatrixXd cross;  // a column for each point, with as many rows as the window has parameters of keyframes
 };
 
-/// Factor 1 + damping of own entries, as Levenberg and Marquardt have it. Points of no information are left out.
-/// Takes sum cross cross^T / H off H's top left corner and sum cross g / H off g's head (Schur complement).
+/// Subtracts sum cross cross^T / H from H's top left corner and sum cross g / H from g's head (Schur complement). The
+/// offsets' diagonal entries are multiplied by 1 + damping (Levenberg-Marquardt). Points without information are left
+/// out.
 void eliminate_depths(const HostDepths& depths, double damping, Eigen::MatrixXd& H, Eigen::VectorXd& g);
 
 /// The offsets' steps [1/m] that belong to the keyframes' step: -(g + cross^T step) / H.

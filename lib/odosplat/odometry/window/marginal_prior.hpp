@@ -11,10 +11,10 @@
 
 namespace odosplat {
 
-/// What keyframes that have left a window, and their points, said of those that stay: the cost
+/// The information about the keyframes of a window that is left of removed keyframes and their points, as the cost
 ///   g . x + x . H x / 2,   x = (log(T T_linearised^-1), a - a_linearised, b - b_linearised) a keyframe, stacked.
-/// Derivatives of these keyframes are taken at the linearised poses from then on, or directions in which nothing is
-/// known would seem to be known (first-estimate Jacobians). Empty: knows nothing.
+/// Derivatives by these keyframes are taken at the linearised poses from then on; otherwise directions in which nothing
+/// is known would seem to be known (first-estimate Jacobians). Empty: no information.
 struct MarginalPrior {
   struct Frame {
     std::shared_ptr<const Keyframe> keyframe;
@@ -22,7 +22,7 @@ struct MarginalPrior {
     Brightness brightness;
   };
   std::vector<Frame> frames;
-  Eigen::MatrixXd H;  // 8 rows a frame
+  Eigen::MatrixXd H;  // 8 rows per frame
   Eigen::VectorXd g;
 
   bool empty() const { return frames.empty(); }

@@ -11,7 +11,7 @@
 namespace odosplat {
 namespace {
 
-/// The window with nothing in it but the points that are to be marginalized with keyframe `index`; `state` follows.
+/// The window with only those points that are to be marginalized with keyframe `index`; `state` is reduced with it.
 Window points_to_marginalize(const Window& window, std::size_t index, const MarginalizationOptions& options,
                              WindowState& state) {
   Window part;
@@ -74,7 +74,7 @@ void marginalize_keyframe(Window& window, std::size_t index, const Camera& camer
   reduced.g *= options.weight;
   add_marginal_prior(window, whole, reduced);
 
-  // The gradient holds at the state as it is now; the prior is written from where it is linearised.
+  // The gradient was computed at the current state; the prior is expressed relative to its linearisation.
   Eigen::VectorXd x = Eigen::VectorXd::Zero(reduced.g.size());
   MarginalPrior prior;
   std::vector<Eigen::Index> out;

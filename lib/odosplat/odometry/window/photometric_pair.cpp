@@ -26,8 +26,8 @@ struct WarpedPattern {
   bool inside;
 };
 
-/// Sums over many points. Rows of S: host pose 6, target pose 6; columns: the same, then c, 1, the residual, nothing.
-/// Only blocks of 4 x 4 on and right of the diagonal are filled.
+/// Sums over many points. Rows of S: host pose 6, target pose 6; columns: the same, then c, 1, the residual and one
+/// that is not used. Only blocks of 4 x 4 on and right of the diagonal are filled.
 struct PairSums {
   Eigen::Matrix<float, 12, 16, Eigen::RowMajor> S = Eigen::Matrix<float, 12, 16, Eigen::RowMajor>::Zero();
   float cc = 0, c = 0, w = 0, cr = 0, r = 0;
@@ -55,7 +55,7 @@ struct PairSums {
   }
 };
 
-/// The same in double precision, columns c, 1 and the residual filled up to a symmetric whole.
+/// The same in double precision, with rows for c and 1 too; the lower triangle is filled at the end.
 struct TotalSums {
   Eigen::Matrix<double, 15, 15> S = Eigen::Matrix<double, 15, 15>::Zero();
   double cost = 0.0;
@@ -123,7 +123,7 @@ PatternSums sum_pattern(const WindowPoint& point, const WarpedPattern& at, const
   const Eigen::Map<const Array8f> weight(point.weight);
   const Array8f c = k.gain * (intensity - k.host_b);
   const Array8f expected = k.target_b + c;
-  // Clipped as it must be, in either image: it agrees, and says nothing more.
+  // Clipped, as it is expected to be, in either image: residual and weight are 0.
   const auto white = (value >= clipped_value && expected >= value) || (intensity >= clipped_value && value >= expected);
   const Array8f r = white.select(0.0F, value - expected);
   const Array8f by_depth = gx * flow_sigma.x() + gy * flow_sigma.y();

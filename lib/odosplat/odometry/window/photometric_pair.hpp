@@ -28,12 +28,12 @@ struct PoseEstimate {
   bool fixed = false;  // T_linearised differs
 };
 
-/// What of a point depends on its host alone, so that it is made once for all targets.
+/// The quantities of a point that depend on its host alone, computed once for all targets.
 struct HostPoint {
   Eigen::Vector3d ray;  // (x, y, 1) in the host's frame
   double q = 0.0;       // [1/m] inverse depth; not positive: no point there
   Eigen::Vector3f m;    // [1/m] slope of inverse depth over the pattern: the plane's, through the point
-  double q_linearised;  // [1/m] the same three where derivatives are taken
+  double q_linearised;  // [1/m] as q, but like P, v and q_by_host at the host's linearised pose
   Eigen::Vector3d P;    // [m] the point in the world
   Eigen::Vector3d v;    // its ray, turned into the world
   Vector6d q_by_host;   // derivative of inverse depth by the host's pose: 0 for planes that move with it
@@ -69,7 +69,8 @@ struct PairSystem {
   double squares = 0.0;  // [grey^2] mean squared residual of inliers, summed over inliers
 };
 
-/// What a pair says of one estimated offset: its own entries of Hessian and gradient, and those with the 16 parameters.
+/// What a pair adds to one estimated offset: its diagonal Hessian entry, its gradient, and the Hessian entries with the
+/// 16 parameters.
 struct DepthTerms {
   double H = 0.0;
   double g = 0.0;
@@ -83,9 +84,9 @@ struct DepthTerms {
 ///   dP = [I | -[P]x] xi_host - v / q^2 dq,  dq = q_plane / (D - N . t) N^T [I | -[P_plane]x] xi_host
 /// (dq = 0 for planes that move with the host), and moving the target acts as -[I | -[P]x] xi_target. Weights:
 /// gradient-dependent, Huber, and for offsets that are not estimated noise^2 / (noise^2 + (dr/dq sigma)^2) for the
-/// map's uncertainty in depth. As in DSO, geometric derivatives are taken at the pattern's centre, and at the
-/// linearised poses, image gradients at each pixel where it is now. Points that differ too much cost a constant; points
-/// out of view cost nothing. world may be any frame; near its origin the numbers are best. depth_terms: empty, or one a
+/// map's uncertainty in depth. As in DSO, geometric derivatives are taken at the pattern's centre and at the linearised
+/// poses, image gradients at the current place of each pixel. Points that differ too much cost a constant; points out
+/// of view cost nothing. world may be any frame; precision is best near its origin. depth_terms: empty, or one per
 /// point, of which those of estimated points are written. Sums run in single precision over 32 points, then in double.
 /// Pure function.
 PairSystem evaluate_pair(const PhotometricPair& pair, const PhotometricOptions& options,

@@ -28,7 +28,7 @@ class Occupancy {
   cv::Mat1b taken_;
 };
 
-constexpr double border = 3.0;  // [px] of the newest keyframe, where no point is sought
+constexpr double border = 3.0;  // [px] of the newest keyframe, where no point is made
 
 WindowPoint free_point(const ImmaturePoint& immature) {
   WindowPoint point;
@@ -113,7 +113,7 @@ int activate_points(Window& window, const Camera& camera, const PhotometricOptio
     }
   }
   std::vector<std::vector<WindowPoint>> chosen(n);
-  // Newest hosts first: their points look most like what comes.
+  // Newest hosts first: their points look most like the frames to come.
   for (std::size_t k = n - 1; k-- > 0;) {
     Keyframe& host = *window.keyframes[k];
     const SE3 T_newest_host = T_newest_world * host.T_world_camera;

@@ -26,8 +26,8 @@ struct ActivationOptions {
 int activate_points(Window& window, const Camera& camera, const PhotometricOptions& photometric,
                     const ActivationOptions& options);
 
-/// Takes out estimated points that have gone: behind the camera, or contradicted by more keyframes than agree. Counts
-/// must be those of the last adjustment.
+/// Removes estimated points that lie behind their camera or are contradicted by more keyframes than agree. Counts must
+/// be those of the last adjustment.
 void remove_bad_points(Window& window, const Camera& camera);
 
 }  // namespace odosplat

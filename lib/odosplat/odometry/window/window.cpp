@@ -29,7 +29,7 @@ double visible_share(const Keyframe& host, const Keyframe& other, const Camera& 
   for (const ImmaturePoint& point : host.immature) {
     if (point.found > 0) count(point.u, point.v, 0.5 * (point.min_q + point.max_q));
   }
-  // A keyframe whose points are all still to be found is not to go for that.
+  // A keyframe that has only immature points, none found yet, is not dropped for that.
   if (all == 0) return host.immature.empty() ? 0.0 : 1.0;
   return static_cast<double>(seen) / all;
 }

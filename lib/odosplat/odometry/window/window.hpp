@@ -17,7 +17,7 @@ struct WindowOptions {
   void check() const;
 };
 
-/// The keyframes that are adjusted together, oldest first, and what is known from those that have left.
+/// The keyframes that are adjusted together, oldest first, and the information left of removed ones.
 struct Window {
   std::vector<std::shared_ptr<Keyframe>> keyframes;
   MarginalPrior prior;  // of some of the keyframes

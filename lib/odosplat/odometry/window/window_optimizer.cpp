@@ -17,7 +17,7 @@ constexpr double first_damping = 1e-5;
 constexpr double least_damping = 1e-8;
 constexpr int most_rejections = 4;  // in a row
 
-/// Equations of different units, solved with a unit diagonal.
+/// Solves equations of different units, scaled to a diagonal of ones.
 class ScaledSolver {
  public:
   explicit ScaledSolver(const Eigen::MatrixXd& H)
@@ -47,8 +47,8 @@ void write_back(const WindowState& state, const WindowSystem& system, Window& wi
   }
 }
 
-/// H^-1, where H is information. Pair sums are of single precision: directions in which H, scaled to a diagonal of
-/// ones, is below their rounding are as good as unknown, and may come out negative.
+/// H^-1, where H is information. Pair sums are of single precision: eigenvalues of H, scaled to a diagonal of ones,
+/// that are below the rounding error may even be negative, and are raised to it.
 Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& H) {
   constexpr double rounding = 1e-7;
   const Eigen::VectorXd scale = H.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
@@ -76,7 +76,7 @@ WindowSummary WindowOptimizer::optimize(Window& window, const Camera& camera) co
   const std::size_t n = window.keyframes.size();
   if (n == 0) return summary;
   if (n == 1 && window.keyframes[0]->anchors.empty()) {
-    // Nothing to compare it with: it is as uncertain as the gauge takes it to be.
+    // Nothing to compare it with: its covariance is that of the gauge prior.
     Keyframe& only = *window.keyframes[0];
     Vector6d variance;
     variance << Eigen::Vector3d::Constant(options_.gauge_translation * options_.gauge_translation),
@@ -85,7 +85,7 @@ WindowSummary WindowOptimizer::optimize(Window& window, const Camera& camera) co
     only.covariance = shift * variance.asDiagonal() * shift.transpose();
     return summary;
   }
-  // The newest keyframe near the origin: levers stay short however far the map extends.
+  // The newest keyframe is moved to the origin: lever arms stay short however far the map extends.
   const Eigen::Vector3d origin = window.keyframes.back()->T_world_camera.translation();
   translate(window, -origin);
 
@@ -131,7 +131,7 @@ WindowSummary WindowOptimizer::optimize(Window& window, const Camera& camera) co
     const Matrix6d own = covariance.block<6, 6>(static_cast<Eigen::Index>(8 * k), static_cast<Eigen::Index>(8 * k));
     Keyframe& keyframe = *window.keyframes[k];
     keyframe.covariance = shift * own * shift.transpose();
-    // Views that hold it err together: their mean, not their sum's inverse.
+    // The errors of its anchors are correlated: the mean of their covariances is added, not that of independent views.
     for (const Anchor& anchor : keyframe.anchors) {
       keyframe.covariance += anchor.covariance / static_cast<double>(keyframe.anchors.size());
     }

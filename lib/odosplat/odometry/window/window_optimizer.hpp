@@ -20,8 +20,8 @@ struct WindowSummary {
 /// inverse depths that are estimated; every keyframe's points are compared with every other keyframe, and every
 /// anchor with its keyframe. Source: Engel, Koltun, Cremers 2018 (DSO); Levenberg-Marquardt with the offsets
 /// eliminated (Schur complement), so that 8 parameters a keyframe and 2 an anchor are left. Differs: a step that does
-/// not lower the cost is taken back; no null space is projected out. Same bits for any number of threads. Ceres is the
-/// tests' second opinion: it reaches the same optimum.
+/// not lower the cost is taken back; no null space is projected out. Same bits for any number of threads. The tests
+/// check that Ceres reaches the same optimum.
 class WindowOptimizer {
  public:
   explicit WindowOptimizer(const WindowOptimizerOptions& options);

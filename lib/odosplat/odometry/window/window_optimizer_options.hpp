@@ -12,11 +12,11 @@ struct WindowOptimizerOptions {
   double converged = 1e-4;           // relative decrease of the cost by a step below which it was the last
   double gain_sigma = 0.3;           // prior of a keyframe's a around 0; of an anchor's a too
   double offset_sigma = 0.2;         // [grey] the same of b
-  double gauge_translation = 0.002;  // [m] prior of the oldest keyframe's pose around its last estimate; not where a
-                                     // marginal prior stands
+  double gauge_translation = 0.002;  // [m] prior of the oldest keyframe's pose around its last estimate; unused if
+                                     // there is a marginal prior
   double gauge_rotation = 0.001;     // [rad] the same
-  // Prior of a keyframe's pose around the one that it was tracked to: images that say anything say far more, but before
-  // a bare wall noise alone carried the window away (a stand-in's wall: decimetres a keyframe).
+  // Prior of a keyframe's pose around its tracked pose. Images with texture determine the pose far better; in front of
+  // a bare wall, noise alone would move the window by up to decimetres a keyframe.
   double tracked_translation = 0.002;  // [m]
   double tracked_rotation = 0.001;     // [rad]
 

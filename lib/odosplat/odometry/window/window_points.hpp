@@ -21,7 +21,7 @@ enum class DepthUse {
   free,              // estimated without prior; the map gives the start
   interval,          // searched for along epipolar lines around the rendered depth, then free (the paper's way)
 };
-/// The word of an option, as above; InputError for others.
+/// The value of an option's word, spelled as above; InputError for others.
 DepthUse depth_use(const std::string& word);
 std::string to_string(DepthUse use);
 

@@ -10,11 +10,11 @@
 
 namespace odosplat {
 
-/// What the window's cost knows beside the images and the marginal prior: weak priors.
+/// The weak priors that the window's cost contains besides the images and the marginal prior.
 struct WindowPriors {
-  SE3 oldest;                               // centre of the oldest keyframe's
-  Vector6d oldest_information;              // its diagonal; 0 where a marginal prior stands
-  std::vector<std::optional<SE3>> tracked;  // centre of each keyframe's, where it has one
+  SE3 oldest;                               // centre of the oldest keyframe's prior
+  Vector6d oldest_information;              // its diagonal; 0 if there is a marginal prior
+  std::vector<std::optional<SE3>> tracked;  // centre of each keyframe's prior, where it has one
   Vector6d tracked_information;             // its diagonal
   double gain_information;
   double offset_information;

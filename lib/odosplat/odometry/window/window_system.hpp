@@ -12,32 +12,34 @@
 
 namespace odosplat {
 
-/// Everything that an adjustment of a window moves, at one moment of it.
+/// The values of everything that an adjustment of a window changes.
 struct WindowState {
-  std::vector<PoseEstimate> poses;               // a keyframe each
-  std::vector<Brightness> brightness;            // a keyframe each
+  std::vector<PoseEstimate> poses;               // one per keyframe
+  std::vector<Brightness> brightness;            // one per keyframe
   std::vector<std::vector<Brightness>> anchors;  // of a keyframe's anchors
   std::vector<std::vector<double>> offsets;      // [1/m] of all points of a keyframe; none where nothing is estimated
 
-  /// Column of the system below where the brightness of keyframe k's first anchor stands; k may be one too many.
+  /// Column of the system below where the brightness of keyframe k's first anchor begins; with k the number of
+  /// keyframes, the number of columns.
   Eigen::Index anchor_column(std::size_t k) const;
 };
 
 /// Normal equations of a whole window. Parameters: for keyframe k at 8k its pose (6, left perturbation), a, b; then of
-/// every anchor, keyframe by keyframe, its a, b. Offsets stand beside, a host each.
+/// every anchor, keyframe by keyframe, its a, b. Offsets are kept apart, for each host.
 struct WindowSystem {
   Eigen::MatrixXd H;
   Eigen::VectorXd g;
   double cost = 0.0;
-  std::vector<HostDepths> depths;                        // a keyframe each
-  std::vector<PairSystem> pairs;                         // host-major, n (n - 1) of them; H and g summed up already
+  std::vector<HostDepths> depths;                        // one per keyframe
+  std::vector<PairSystem> pairs;                         // host-major, n (n - 1) of them; already contained in H and g
   std::vector<std::vector<std::pair<int, int>>> counts;  // of a keyframe's estimated points: agreeing, contradicting
 };
 
-/// Poses are linearised where the window's prior says, others where they are.
+/// Poses in the window's prior are linearised where the prior says, others at their current value.
 WindowState window_state(const Window& window);
 
-/// Sums the pairs of all keyframes and anchors at the state given, and the offsets' priors. Other priors are not in it.
+/// Sums the pairs of all keyframes and anchors at the state given, and the offsets' priors. Other priors are not
+/// included.
 /// only: index of a keyframe, to leave out all pairs and anchors that it has no part in; -1: everything.
 /// Runs on several threads; sums in fixed order.
 WindowSystem evaluate_window(const Window& window, const WindowState& state, const Camera& camera,

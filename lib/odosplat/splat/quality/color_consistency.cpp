@@ -18,10 +18,11 @@ namespace {
 
 constexpr double surroundings_px = 4.0;  // standard deviation of the window, in the reduced image
 constexpr std::size_t least_points = 200;
-// A hypothesis must leave at most this share of what the files leave: the rest is chance and the search's own gain.
+// A hypothesis must leave at most this share of what the given geometry leaves: a smaller gain may be due to chance,
+// and to the search itself.
 constexpr double clearly_better = 0.8;
-constexpr double least_spread = 0.5;  // of the points over the images, of what it is as given
-constexpr double least_gain = 0.05;   // and this much less: next to nothing is no doubt, whatever the ratio
+constexpr double least_spread = 0.5;  // of the points in the images, as a share of that with the given geometry
+constexpr double least_gain = 0.05;   // and by this much less: with next to nothing unexplained, a ratio means nothing
 
 }  // namespace
 
@@ -125,8 +126,8 @@ ColorConsistency::Value ColorConsistency::of(const GeometryHypothesis& hypothesi
       camera.fx *= hypothesis.focal;
       camera.fy *= hypothesis.focal;
       const SE3 T = hypothesis.inverted ? view.T_world_camera.inverse() : view.T_world_camera;
-      // A cloud that is moved by -offset is as good as cameras that are moved by +offset, and
-      // one that is shrunk as good as cameras that stand apart as much more.
+      // Moving the cloud by -offset is equivalent to moving the cameras by +offset, and shrinking it is equivalent to
+      // enlarging the distances between the cameras.
       const SE3 T_world_camera(T.rotation(), hypothesis.unit * T.translation() + hypothesis.offset);
       for (const SeenPoints::Point& p : points_.in(camera, T_world_camera)) {
         const float u = std::clamp(p.u, 0.0F, static_cast<float>(camera.width - 1));
@@ -156,7 +157,7 @@ ColorConsistency::Value ColorConsistency::of(const GeometryHypothesis& hypothesi
     ++result.points;
     const double n = counts[i];
     within += (squares[i] - sums[i] * sums[i] / n) * n / (n - 1.0);
-    all += squares[i];  // about zero, the mean of a value less its surroundings
+    all += squares[i];  // about 0, which is the mean of values less their surroundings' mean
   }
   if (result.points < least_points || !(all > 0.0)) return result;
   result.unexplained = within / all;
@@ -174,11 +175,11 @@ ColorConsistency::Value ColorConsistency::of(const GeometryHypothesis& hypothesi
 std::optional<GeometryDoubt> geometry_doubt(const ColorConsistency& consistency) {
   const ColorConsistency::Value given = consistency.of({});
   GeometryDoubt best{{}, given.unexplained, given.unexplained};
-  // Fewer points in common than half would be judged on other places than the given geometry.
+  // With fewer than half the points in common, other places would be compared than with the given geometry.
   const auto tried = [&](const GeometryHypothesis& hypothesis) {
     const ColorConsistency::Value value = consistency.of(hypothesis);
     if (2 * value.points < given.points || value.unexplained >= best.instead) return false;
-    // A cloud that is shrunk to a spot looks alike from everywhere.
+    // A cloud that is shrunk to a spot looks alike in all images.
     if (value.spread_px < least_spread * given.spread_px) return false;
     best.hypothesis = hypothesis;
     best.instead = value.unexplained;
@@ -206,12 +207,12 @@ std::optional<GeometryDoubt> geometry_doubt(const ColorConsistency& consistency)
       }
     }
   }
-  // Three numbers to choose from explain more than one does.
+  // Three free numbers fit better by chance than one does.
   if (least < clearly_better * best.instead) {
     best.hypothesis = moved;
     best.instead = least;
   }
-  // What fits a little better than something that does not fit at all is no cause.
+  // A hypothesis with which the images still disagree is not the cause.
   if (best.instead > most_unexplained) return std::nullopt;
   if (!(best.instead < clearly_better * best.as_given) || best.as_given - best.instead < least_gain)
     return std::nullopt;

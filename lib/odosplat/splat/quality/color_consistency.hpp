@@ -13,20 +13,21 @@
 
 namespace odosplat {
 
-/// What may be wrong with poses, camera and cloud; the default: nothing.
+/// An assumed error of poses, camera or cloud; the default: none.
 struct GeometryHypothesis {
   bool inverted = false;                             // the poses are T_camera_world
-  double unit = 1.0;                                 // times that the cloud's coordinates are larger than the poses'
-  double focal = 1.0;                                // times the focal length that was given
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // [m, world] that the cloud lies off the poses' world
+  double unit = 1.0;                                 // factor by which the cloud's coordinates are larger than the
+                                                     // poses'
+  double focal = 1.0;                                // factor of the given focal length
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // [m, world] of the cloud from its right place in the poses' world
 
-  /// "the poses are inverted", ...: a likely cause, named.
+  /// The error in words, as a likely cause: "the poses are inverted", ...
   std::string words() const;
 };
 
-/// ColorConsistency::Value::unexplained above which images and cloud do not belong together. Chosen, not fitted: three
-/// rooms as they should be have 0.04 to 0.10; a cloud that is turned by 90 degrees 0.46 to 0.87, one in mm or cm 0.84
-/// to 0.88.
+/// ColorConsistency::Value::unexplained above which images and cloud do not belong together. Chosen, not fitted: it is
+/// 0.04 to 0.10 for correct data, 0.46 to 0.87 for a cloud that is turned by 90 degrees, and 0.84 to 0.88 for one in mm
+/// or cm.
 inline constexpr double most_unexplained = 0.25;
 
 struct ColorConsistencyOptions {
@@ -38,16 +39,16 @@ struct ColorConsistencyOptions {
 };
 
 /// Whether cloud, poses and camera belong together, before any training: points on a surface look alike in all images
-/// that see them, and like the cloud's own colours, if it has any. Images are compared by grey values less their
-/// surroundings' mean (exposure cancels); with the cloud by the correlation of grey values, which shows an offset even
-/// where cameras turn in one place and all images err alike.
+/// that see them, and like the cloud's own colours, if it has any. Images are compared with each other by grey values
+/// less their surroundings' mean, which removes the exposure; with the cloud by the correlation of grey values, which
+/// shows an offset even where cameras only turn in one place, so that all images have the same error.
 /// Keeps the reduced images. Frames: cloud and poses in one world frame [m]. Uses all threads; deterministic.
 class ColorConsistency {
  public:
   struct Value {
-    // Variance within the points over the variance of all values: 0 as it should be, about 1 where images and points
-    // have nothing to do with each other; with coloured clouds the geometric mean of that and of the share of the
-    // images' variance that the cloud's colours do not explain.
+    // Variance within the points over the variance of all values: 0 for perfect agreement, about 1 if images and points
+    // are unrelated; with coloured clouds the geometric mean of that and of the share of the images' variance that the
+    // cloud's colours do not explain.
     double unexplained = 1.0;
     std::size_t points = 0;  // seen by two images or more
     double spread_px = 0.0;  // of the points in the images: standard deviation, both directions together
@@ -70,7 +71,7 @@ class ColorConsistency {
   std::vector<View> views_;
 };
 
-/// A hypothesis under which the images agree clearly better than as the files say.
+/// A hypothesis under which the images agree clearly better than with the given geometry.
 struct GeometryDoubt {
   GeometryHypothesis hypothesis;
   double as_given = 1.0;  // Value::unexplained

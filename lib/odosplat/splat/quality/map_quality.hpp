@@ -34,14 +34,14 @@ struct TrainingEvidence {
   std::size_t budget = 0;     // most Gaussians that the user asked for, 0: no such limit
 };
 
-/// At most 200 of the views and 100 000 of the points, evenly spread, stand for all. Uses all threads; deterministic.
+/// From samples of at most 200 views and 100 000 points, evenly spread. Uses all threads; deterministic.
 CloudCoverage cloud_coverage(const PointCloud& cloud, const TrainingViews& views);
 
 /// Whether a point of the cloud is in any image, hidden or not; inverted: if the poses were T_camera_world.
 bool any_in_view(const PointCloud& cloud, const TrainingViews& views, bool inverted = false);
 
 /// Every training view against its image, and against the depth of `surface` (null: unknown), in the order of the
-/// views. exposures: those learnt beside the map.
+/// views. exposures: those trained with the map.
 std::vector<ViewQuality> view_qualities(const compute::Context& context, const Gaussians& gaussians,
                                         TrainingViews& views, MapView* surface, const Exposures& exposures,
                                         const RasterizerOptions& options);
@@ -50,11 +50,11 @@ std::vector<ViewQuality> view_qualities(const compute::Context& context, const G
 /// standard deviations (1.4826 median absolute deviations) and at least by 4 dB or a factor of 3.
 void mark_odd(std::vector<ViewQuality>& views);
 
-/// The verdict from all of that, and what geometry_doubt found. Not judged, and not good: a map that was not trained,
-/// or of one or two images, which a map fits whatever its geometry. A doubtful map's cause is named only where
-/// something bears it: a geometry that fits better, images that do not agree on the cloud's colours, a training that
-/// was much shorter than the preset's or was held to a budget below the cloud's points, images that disagree with the
-/// rest.
+/// The verdict from all of that, and from the result of geometry_doubt. A map is not judged, and does not count as
+/// good, if it was not trained, or on one or two images only, which a map can fit with any geometry. A likely cause of
+/// doubt is named only if there is evidence for it: a geometry that fits better, images that do not agree on the
+/// cloud's colours, a training that was much shorter than the preset's or was held to a budget below the cloud's
+/// points, images that disagree with the rest.
 MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage& coverage, double consistency,
                      const std::optional<GeometryDoubt>& doubt, const TrainingEvidence& training = {});
 

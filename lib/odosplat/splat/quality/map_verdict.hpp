@@ -18,7 +18,7 @@ struct CloudCoverage {
   std::array<double, 6> directions{};
 };
 
-/// What a map is worth, in the words and figures of its header.
+/// The quality of a map, as its header has it.
 struct MapQuality {
   bool good = false;
   std::string verdict;              // one line: "good: ...", "not judged: ..." or "doubtful: ...; likely cause: ..."
@@ -30,8 +30,8 @@ struct MapQuality {
   double consistency = 1.0;  // ColorConsistency::Value::unexplained of the geometry as given, negative: unknown
   CloudCoverage coverage;
 
-  /// Lines "quality_NAME value" for the header of a map; and back, none where there are none. from_lines throws
-  /// InputError for values that are no numbers. Other lines are passed over.
+  /// Lines "quality_NAME value" for the header of a map, and back; none if there are no such lines. from_lines throws
+  /// InputError for values that are no numbers. Other lines are ignored.
   std::vector<std::string> to_lines() const;
   static std::optional<MapQuality> from_lines(const std::vector<std::string>& lines);
 };

@@ -14,7 +14,7 @@ namespace {
 constexpr int spacing_neighbors = 6;
 constexpr int normal_neighbors = 12;
 constexpr double min_depth = 0.05;       // [m]
-constexpr double disc_spacings = 1.0;    // radius of the discs that hide
+constexpr double disc_spacings = 1.0;    // radius of the discs that hide, in spacings
 constexpr float hidden_spacings = 1.5F;  // how far behind a disc a point is hidden, in spacings ...
 constexpr float hidden_share = 0.01F;    // ... plus this share of its depth
 

@@ -10,10 +10,10 @@
 
 namespace odosplat {
 
-/// Which points of a cloud an image shows: those in it that no nearer points hide. Points hide with discs of their
-/// spacing on the cloud's normals, which are estimated where it has none. Frames: cloud and poses in one world frame
-/// [m]. Throws InputError for points that are not finite. Uses all threads when it is made; deterministic. in() may be
-/// called from several threads at once.
+/// Which points of a cloud an image shows: those in it that no nearer points hide. A point hides what lies behind a
+/// disc of the points' spacing, perpendicular to its normal; normals are estimated if the cloud has none. Frames: cloud
+/// and poses in one world frame [m]. Throws InputError for points that are not finite. Uses all threads when it is
+/// made; deterministic. in() may be called from several threads at once.
 class SeenPoints {
  public:
   struct Point {

@@ -18,7 +18,7 @@ struct Range {
 };
 constexpr std::array<Range, 4> ranges{Range{&SigmaModel::spread, 5.0F}, Range{&SigmaModel::slope_px, 4.0F},
                                       Range{&SigmaModel::depth_share, 0.05F}, Range{&SigmaModel::open_share, 5.0F}};
-// Half a per mille of depth is what no map here was better than; half the spread where nothing is known of edges.
+// Half a per mille of depth is the best that any measured map reached; half the spread where nothing is known of edges.
 constexpr SigmaModel least_measured{0.1F, 0.05F, 5e-4F, 1e-3F};
 constexpr SigmaModel least_of_surface{0.5F, 0.05F, 5e-4F, 1e-2F};
 
@@ -30,7 +30,7 @@ double variance_of(const SigmaSample& s, const SigmaModel& m) {
   return spread * spread + sloped * sloped + floor * floor + open * open;
 }
 
-/// What the comparison shows and, at the quantile of two sigmas, what it cannot show.
+/// The error that the comparison shows and, at the quantile of two sigmas, the one that it cannot show.
 double squared_error(const SigmaSample& s) { return s.error * s.error + 4.0 * s.shared_sigma * s.shared_sigma; }
 
 /// Mean pinball loss of ln |error| about ln 2 sigma at the quantile of two sigmas.
@@ -141,7 +141,7 @@ SigmaModel calibrated_sigma(const compute::Context& context, const Gaussians& ga
     for (const cv::Point& p : strongest_pixels(views.color(view), std::max(1, static_cast<int>(cell)))) {
       if (!(target(p) > 0.0F) || !(depth(p) > 0.0F) || alpha(p) < 0.5F) continue;
       const auto at = [&](const cv::Mat1f& image) { return static_cast<double>(image(p)); };
-      // The tangent of the angle between ray and normal, about: an error across the surface is longer along the ray.
+      // About the tangent of the angle between ray and normal: an error along the normal is longer along the ray.
       const double tangent = at(slope) * std::min(camera.fx, camera.fy) / at(depth);
       const double shared = by_surface ? options.shared_sigma * std::hypot(1.0, tangent) : 0.0;
       samples.push_back({at(depth) - at(target), shared, at(spread), at(slope), at(depth), 1.0 - at(alpha)});

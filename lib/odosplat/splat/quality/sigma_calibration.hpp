@@ -20,27 +20,28 @@ struct SigmaCalibrationOptions {
   void check() const;
 };
 
-/// One pixel: what the map says, what the surface says, and what sigma could be made of.
+/// One pixel: the error of the map's depth, and what sigma can be made of.
 struct SigmaSample {
-  double error = 0.0;         // [m] map - measured; the measurement's own part in it makes sigma a little too large
-  double shared_sigma = 0.0;  // [m] along the ray, of both
+  double error = 0.0;         // [m] map - measured; it contains the measurement's own error, which makes sigma a little
+                              // too large
+  double shared_sigma = 0.0;  // [m] along the ray: error that map and surface have in common
   double spread = 0.0;        // [m]
   double slope = 0.0;         // [m/px]
   double depth = 0.0;         // [m]
   double open = 0.0;          // 1 - alpha
 };
 
-/// Factors for which 95.4 % of the errors are within two sigmas, as a normal distribution's are, whatever the pixel is
-/// like: quantile regression (Koenker and Bassett 1978) of ln |error| on ln 2 sigma, searched factor by factor on a
-/// logarithmic grid. Errors of depth are not normal: most are small, and where two surfaces meet some are as large as
-/// the gap. A variance would hang on those few, and one that leaves them out calls such pixels sure.
-/// least: factors are not below these. Without samples the defaults. Deterministic.
+/// Factors for which 95.4 % of the errors are within two sigmas, as of a normal distribution, for all kinds of pixels:
+/// quantile regression (Koenker and Bassett 1978) of ln |error| on ln 2 sigma, searched factor by factor on a
+/// logarithmic grid. Errors of depth are not normally distributed: most are small, and where two surfaces meet some are
+/// as large as the gap. A variance would be determined by those few, and a variance without them would make such pixels
+/// seem certain. least: lower bounds of the factors. Without samples the defaults. Deterministic.
 SigmaModel fit_sigma(const std::vector<SigmaSample>& samples, const SigmaModel& least);
 
-/// The map's depth (mode surface) at training views against the depth measured there, or where there is none, against
-/// the surface it was made from, and the factors of that. The surface says nothing near its edges, where the spread
-/// counts, nor of what it has in common with the map: with it alone the spread keeps at least half its weight, and
-/// shared_sigma is added. Pixels with an image gradient are what trackers use, so those are judged.
+/// Fits the factors to the map's depth (mode surface) at training views, compared with the depth measured there, or
+/// without that, with the surface that the map was made from. The surface is not reliable near its edges, where the
+/// spread counts, and does not show errors that it has in common with the map: if it is used, the spread keeps at least
+/// half its weight, and shared_sigma is added. Only pixels with an image gradient are compared, as trackers use those.
 SigmaModel calibrated_sigma(const compute::Context& context, const Gaussians& gaussians, TrainingViews& views,
                             MapView& surface, const SigmaCalibrationOptions& options = {});
 

@@ -14,7 +14,7 @@ namespace {
 using compute::Range;
 
 constexpr int block = 4;  // BLOCK of raster_common.cl
-// Gaussians an item: long runs for the few threads of a CPU, short ones for a GPU.
+// Gaussians of a work-item: long runs for the few threads of a CPU, short ones for a GPU.
 constexpr std::size_t cpu_chunk = 2048;
 constexpr std::size_t gpu_chunk = 16;
 
@@ -30,7 +30,7 @@ PixelSelection::PixelSelection(const compute::Context& context, std::size_t lane
   tiles_.sparse = 1;
 }
 
-// Marks the blocks, and sums them up over all rectangles from the image's first corner.
+// Marks the blocks, and sums the marks over all rectangles that begin at the image's first corner.
 void PixelSelection::mark(const Viewpoint& view, const std::vector<cv::Point>& pixels) {
   const auto [width, height, columns, rows] = view.grid;
   const auto stride = static_cast<std::size_t>((width + block - 1) / block + 1);

@@ -15,11 +15,11 @@
 
 namespace odosplat {
 
-/// What is wanted of an image of which only some pixels are: the tiles and blocks of 4 x 4 pixels that hold them, and
+/// What is needed to render only some pixels of an image: the tiles and blocks of 4 x 4 pixels that contain them, and
 /// the Gaussians that may touch those blocks (a superset of those that do, in their order). Not thread safe.
 class PixelSelection {
  public:
-  /// lanes: Gaussians that an item looks at side by side, 1 or 8.
+  /// lanes: Gaussians that a work-item handles side by side, 1 or 8.
   PixelSelection(const compute::Context& context, std::size_t lanes);
 
   /// Waits once, for the number of Gaussians. Pixels may repeat; InputError for one outside the image.
@@ -27,7 +27,7 @@ class PixelSelection {
               const std::vector<cv::Point>& pixels);
 
   std::size_t size() const { return size_; }                                     // Gaussians selected
-  const compute::Buffer<std::uint32_t>& gaussians() const { return selected_; }  // [size] their indices, rising
+  const compute::Buffer<std::uint32_t>& gaussians() const { return selected_; }  // [size] their indices, ascending
   const WantedTiles& tiles() const { return tiles_; }
 
   /// The selected pixels' values [planes x pixels] out of an image [planes x H x W] in the order given to select.

@@ -12,24 +12,26 @@
 
 namespace odosplat {
 
-/// Which tiles are made: all, or where `sparse` those with a bit set in `blocks` [tiles]: bit b for block b of 4 x 4
+/// Which tiles are rendered: all, or if `sparse` those with a bit set in `blocks` [tiles]: bit b for block b of 4 x 4
 /// pixels.
 struct WantedTiles {
   std::int32_t sparse = 0;
   compute::Buffer<std::uint32_t> blocks;
 };
 
-/// Lists of the Gaussians that each tile of an image shows, from near to far.
-/// Steps: scan of the tiles a Gaussian (a pair's place in it is its slot), tiles written to the slots, radix sort of
-/// the Gaussians by depth, stable sort of the pairs by tile in that order: a counting sort over a few long chunks where
-/// `long_chunks` (CPUs), else a radix sort. Both give the same lists; equal depths keep the order of the Gaussians. Not
-/// thread safe. Waits once, to learn the number of pairs. Throws compute::DeviceError.
+/// Lists of the Gaussians that each tile of an image shows, from near to far. Steps:
+/// 1. scan of the number of tiles of each Gaussian (a pair's place in it is its slot),
+/// 2. tiles written to the slots,
+/// 3. radix sort of the Gaussians by depth,
+/// 4. stable sort of the pairs by tile in that order: a counting sort over a few long chunks if `long_chunks` (CPUs),
+///    else a radix sort. Both give the same lists; equal depths keep the order of the Gaussians.
+/// Not thread safe. Waits once, for the number of pairs. Throws compute::DeviceError.
 class RasterPairs {
  public:
   RasterPairs(const compute::Context& context, const compute::Program& program, bool long_chunks);
 
-  /// boxes, depth_keys [N] and counts [N] (tiles a Gaussian) as project.cl writes them for `lanes` Gaussians an item;
-  /// grid: width, height [px], tiles a row, rows of tiles; wanted: which tiles count.
+  /// boxes, depth_keys [N] and counts [N] (tiles of each Gaussian) as project.cl writes them for `lanes` Gaussians per
+  /// work-item; grid: width, height [px], tiles per row, rows of tiles; wanted: which tiles count.
   void build(std::size_t n, std::size_t lanes, const compute::Buffer<float>& boxes,
              const compute::Buffer<std::uint32_t>& depth_keys, const compute::Buffer<std::uint32_t>& counts,
              const std::array<std::int32_t, 4>& grid, const WantedTiles& wanted);

@@ -25,7 +25,7 @@ using compute::Kernel;
 using compute::Program;
 using compute::Range;
 
-constexpr int block_pixels = 16;  // that the tile shell handles at once, as a vector
+constexpr int block_pixels = 16;  // pixels that the tile shell handles at once, as a vector
 constexpr std::size_t cpu_lanes = 8;
 constexpr int splat_floats = 16;  // SPLAT_VECTORS of four
 constexpr int box_floats = 8;
@@ -118,7 +118,7 @@ struct Rasterizer::Impl {
   std::string shell_options() const {
     return shell == Shell::tile ? define("SHELL_TILE", 1) + define("VW", block_pixels) : define("SHELL_TILE", 0);
   }
-  // One item `lanes` Gaussians.
+  // One work-item for each `lanes` Gaussians.
   Range groups() const { return Range::linear((count + lanes - 1) / lanes, lanes > 1 ? 1 : ITEM_GROUP); }
   void prepare(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
                const RenderRequest& wanted);

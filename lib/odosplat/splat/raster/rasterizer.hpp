@@ -44,7 +44,7 @@ struct RasterizerOptions {
   bool compensated =
       false;  // opacity times sqrt(det before / det after dilation), as in Mip-Splatting (Yu et al. 2024)
   DepthKind depth_kind = DepthKind::automatic;
-  BlendOrder order = BlendOrder::depth;  // of a map: what its header says (MapHeader)
+  BlendOrder order = BlendOrder::depth;  // of a map: that of its header (MapHeader)
   Shell shell = Shell::automatic;
 
   void check() const;
@@ -64,7 +64,7 @@ struct RenderRequest {
 struct RenderOutput {
   int width = 0;
   int height = 0;
-  compute::Buffer<float> color;  // [3 x H x W] planes R, G, B; 0.. (not clamped above); background black
+  compute::Buffer<float> color;  // [3 x H x W] planes R, G, B; at least 0, not clamped to 1; background black
   compute::Buffer<float> depth;  // [H x W] m along the optical axis, 0 = none
   compute::Buffer<float> alpha;  // [H x W] 0..1
   // [H x W] m, by the request's sigma_model, with the spread along the ray sqrt(sum w (z - expected)^2 / sum w) and the
@@ -104,10 +104,10 @@ class Rasterizer {
                const RenderRequest& request, RenderOutput& output);
 
   /// The same at some pixels only, at a fraction of the cost: Gaussians that touch none of them are not projected,
-  /// tiles without any are skipped, and of the others only blocks of 4 x 4 pixels with one are composited (on the pixel
-  /// shell the whole tile). `output` has a value a pixel, in the order given (x: column, y: row): width =
-  /// pixels.size(), height = 1. The values are those of forward, to the bit. Pixels may repeat; none: empty images. No
-  /// backward after it. Waits twice. Errors: as forward; InputError for a pixel outside the image.
+  /// tiles without any are skipped, and in the other tiles only the blocks of 4 x 4 pixels with one are composited
+  /// (with Shell::pixel the whole tile). `output` has one value per pixel, in the order given (x: column, y: row):
+  /// width = pixels.size(), height = 1. The values are those of forward, to the bit. Pixels may repeat; none: empty
+  /// images. No backward after it. Waits twice. Errors: as forward; InputError for a pixel outside the image.
   void forward_pixels(const DeviceGaussians& gaussians, const Camera& camera, const SE3& T_world_camera,
                       const RenderRequest& request, const std::vector<cv::Point>& pixels, RenderOutput& output);
 

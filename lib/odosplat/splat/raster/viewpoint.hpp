@@ -11,11 +11,12 @@
 
 namespace odosplat {
 
-/// What of camera and pose the kernels take (projection.cl).
+/// Camera and pose as the kernels take them (projection.cl).
 struct Viewpoint {
   std::array<float, 16> pose{};        // rotation world to camera, translation, camera centre
-  std::array<float, 8> lens{};         // fx, fy, cx, cy, range of x/z and y/z where the perspective's slope follows
-  std::array<std::int32_t, 4> grid{};  // width, height [px], tiles a row, rows of tiles
+  std::array<float, 8> lens{};         // fx, fy, cx, cy, and the range of x/z and y/z that the Jacobian of the
+                                       // projection is limited to
+  std::array<std::int32_t, 4> grid{};  // width, height [px], tiles per row, rows of tiles
   std::size_t tiles = 0;
   std::size_t pixels = 0;
 };

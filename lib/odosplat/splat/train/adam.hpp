@@ -30,7 +30,7 @@ class Adam {
 
   /// parameters -= step; gradients of the same size. Moments start at zero whenever the size changes.
   void step(compute::Buffer<float>& parameters, const compute::Buffer<float>& gradients, double rate);
-  /// Holds parameters at or below bound, element by element (same size). Queued.
+  /// Limits parameters to at most `bound`, element by element (same size). Queued.
   void limit(compute::Buffer<float>& parameters, const compute::Buffer<float>& bound);
   long steps() const { return steps_; }
   int stride() const { return stride_; }

@@ -34,7 +34,8 @@ class Checkpoint {
   }
   std::string get_text(const std::string& name) const { return find(name); }
 
-  /// All entries of another one, their names behind `prefix`; and those behind it, with the names they had.
+  /// put_all adds all entries of another checkpoint, with `prefix` before their names; behind gives these back, without
+  /// it.
   void put_all(const std::string& prefix, const Checkpoint& other);
   Checkpoint behind(const std::string& prefix) const;
   bool empty() const { return entries_.empty(); }

@@ -14,7 +14,7 @@ namespace odosplat {
 
 namespace {
 
-constexpr int most_in_one_place = 51;  // as in Kheradmand et al.: beyond, the alternating sum loses its digits
+constexpr int most_in_one_place = 51;  // as in Kheradmand et al.: beyond, the alternating sum loses its precision
 constexpr double split_shrinkage = 1.6;
 
 float logit(double opacity) { return static_cast<float>(std::log(opacity / (1.0 - opacity))); }
@@ -55,7 +55,7 @@ void overwrite(TrainingRows& rows, std::size_t to, std::size_t from) {
   rows.from[to] = -1;
 }
 
-/// A step within the Gaussian along its first `axes` axes, drawn from it, `stretch` times its size.
+/// Moves row i by a random step along its first `axes` axes, drawn from the Gaussian `stretch` times its size.
 void scatter(TrainingRows& rows, std::size_t i, std::size_t axes, double stretch, Random& random) {
   float shift[3] = {0.0F, 0.0F, 0.0F};
   for (std::size_t a = 0; a < axes; ++a)
@@ -220,7 +220,7 @@ void clone_and_split(TrainingRows& rows, const DensifyOptions& options, const De
     }
     const std::size_t copy = rows.append_copy(i);
     if (!split) continue;
-    // Both halves are drawn from the whole.
+    // Both halves are placed at random within the whole.
     for (const std::size_t half : {i, copy}) {
       scatter(rows, half, 3, split_shrinkage, random);
       rows.from[half] = -1;
@@ -230,7 +230,7 @@ void clone_and_split(TrainingRows& rows, const DensifyOptions& options, const De
   for (std::size_t i = 0; i < rows.size(); ++i)
     wanted[i] =
         opacity_of(rows.gaussians, i) >= options.dead_opacity && largest_axis(rows.gaussians, i) <= sizes.largest;
-  // A map that would be left with nothing keeps what it has.
+  // If none would be left, all are kept.
   if (std::find(wanted.begin(), wanted.end(), true) != wanted.end()) rows.keep(wanted);
 }
 

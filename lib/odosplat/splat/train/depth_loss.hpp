@@ -8,13 +8,14 @@ namespace odosplat {
 
 struct DepthLossOptions {
   double weight = 2.0;  // of the term beside the image loss, >= 0; 0: no depth term
-  double cut = 0.05;    // relative difference beyond which another surface is meant and nothing pulls, > 0.001
+  double cut = 0.05;    // relative difference beyond which the target counts as another surface, and the gradient is 0,
+                        // > 0.001
 
   /// Throws InputError naming the field.
   void check() const;
 };
 
-/// weight * mean over all pixels of w rho((rendered - target) / target), on the device; rho: absolute value, rounded
+/// weight * mean over all pixels of w rho((rendered - target) / target), on the device; rho: absolute value, smooth
 /// below 0.001 and constant beyond `cut`; pixels without rendered or target depth count as 0.
 /// Source: the depth term of MonoGS (Matsuki et al. 2024, eq. 9), here relative to depth and cut. Queued; the same bits
 /// on one device. Not thread safe.

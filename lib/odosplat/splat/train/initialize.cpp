@@ -20,7 +20,7 @@ namespace odosplat {
 
 namespace {
 
-constexpr float lone_point_scale = 0.01F;  // [m] size where there is no neighbour to tell it
+constexpr float lone_point_scale = 0.01F;  // [m] size of a point without neighbours
 constexpr float smallest_scale = 0.05F;    // of the median size: points that coincide
 
 /// `keep` of the points, chosen at random without replacement, in their old order.

@@ -46,7 +46,7 @@ PointCloud smoothed_cloud(const PointCloud& cloud, const InitializeOptions& opti
 /// of the number of neighbours that a point was averaged with. The cloud before and after, point by point.
 double noise_left(const PointCloud& cloud, const PointCloud& smoothed, const InitializeOptions& options);
 
-/// One Gaussian a point: the start of training.
+/// One Gaussian per point: the start of training.
 /// Source: the paper's section on map training (a Gaussian a point, opacity 0.8), Kerbl et al. 2023 (size from the
 /// three nearest neighbours). Differs: by default flat discs on the cloud's normals, because depth of round Gaussians
 /// lies up to one standard deviation before the surface; and points are smoothed first (smoothed_cloud). Positions in

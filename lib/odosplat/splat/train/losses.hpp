@@ -30,9 +30,9 @@ struct LossValue {
 /// (1 - w) colour difference + w (1 - SSIM) of two images and its gradient, on the device.
 /// Source: Kerbl et al. 2023, eq. 7; SSIM: Wang et al. 2004, 11 x 11 Gaussian window of sigma 1.5 centred on the pixel,
 /// constants 0.01^2 and 0.03^2, each channel on its own, mean over pixels and channels. Differs: at the image border
-/// the window is cut and its weights scaled to sum one, where the public trainers continue the image by zeros. Images
-/// are planar [3 x height x width], values about 0..1. The same input gives the same bits on one device. Images may be
-/// of any size from 1 x 1; another size than the last call's re-makes the buffers. Not thread safe.
+/// the window is cut and its weights scaled to sum one, where the public trainers pad the image with zeros. Images are
+/// planar [3 x height x width], values about 0..1. The same input gives the same bits on one device. Images may be of
+/// any size from 1 x 1; a size other than that of the last call makes the buffers anew. Not thread safe.
 class ImageLoss {
  public:
   ImageLoss(const compute::Context& context, const LossOptions& options);

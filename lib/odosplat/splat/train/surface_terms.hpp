@@ -21,11 +21,12 @@ struct SurfaceTermsOptions {
   void check() const;
 };
 
-/// Where each Gaussian belongs: [N x 8], a point of the surface [m, world], 1 / size^2 [1/m^2], the unit normal, 0.
+/// The surface that each Gaussian is held to: [N x 8], a point of it [m, world], 1 / size^2 [1/m^2], the unit normal,
+/// 0.
 std::vector<float> surface_anchors(const Gaussians& discs);
 
-/// Adds the terms' derivatives to the gradients of the image terms. Source: of the terms, PGSR (Chen et al. 2024) and
-/// 2DGS (Huang et al. 2024) flatten and align by rendered normals; here the cloud's own planes are known.
+/// Adds the terms' derivatives to the gradients of the image terms. Source: such terms of PGSR (Chen et al. 2024) and
+/// 2DGS (Huang et al. 2024), which flatten and align by rendered normals; here the planes of the cloud are known.
 class SurfaceTerms {
  public:
   SurfaceTerms(const compute::Context& context, const SurfaceTermsOptions& options);

@@ -187,7 +187,7 @@ void Trainer::guard() {
   set_state(best_);
   guard_.went_back();
   ++undone_;
-  // Steps that end as badly without densification would do so for ever.
+  // Without densification the same steps would give the same result again.
   ended_early_ = !densified || iteration_ > options_.densify.until_share * options_.iterations;
   char numbers[96];
   std::snprintf(numbers, sizeof(numbers), "fell from %.1f to %.1f dB by step %d", guard_.best_db(), guard_.last_db(),
@@ -225,7 +225,7 @@ bool Trainer::densifies() const {
 
 void Trainer::densify() {
   const DensifyOptions& d = options_.densify;
-  // After a reset the opacities say nothing until every view had its turn (as in the public trainers).
+  // After a reset the opacities mean nothing until every view had its turn (as in the public trainers).
   const bool settled = d.reset_interval == 0 || iteration_ % d.reset_interval > views_.count() + 100;
   Random random(options_.seed ^ (0xd1342543de82ef95ULL * static_cast<std::uint64_t>(iteration_)));
   if (settled || d.method == DensifyMethod::relocate) {

@@ -29,21 +29,23 @@ struct TrainingReport {
   double iterations_per_second = 0.0;
   double psnr_db = 0.0;      // mean over the last round of views at full size (each as it was before its own step)
   double depth_error = 0.0;  // likewise of TrainingStep::depth_error
-  int undone = 0;            // how often training fell and went back to its best
+  int undone = 0;            // how often training collapsed (TrainingGuard) and was taken back to its best state
 };
 
-/// Fits Gaussians to posed images and to the surface they were made from: render, losses, gradients, Adam, one image a
-/// step. Source: Kerbl et al. 2023, sections 5 and 7; order of views: a new seeded shuffle every round, each view once.
-/// Differs: the default preset never clones, splits, prunes or resets: the Gaussians are those of a cloud, on the
-/// surface already, and depth is worth more than the last decibel. They move little, keep their planes and their
-/// thickness, rendered depth is held to the surface's, and all rates fall, so that the result does not hang on the last
-/// views seen. Frames: Gaussians and poses in one world frame [m]. Same seed, input and device: the same bits, whatever
-/// the threads, and whether the run was stopped and taken up again. Training that falls (TrainingGuard) goes back to
-/// its best and on from there without densification; if it falls without, it ends with its best; a warning on the log
-/// says so. The guard waits for half a reset interval after an opacity reset, which lowers the PSNR on purpose. Throws
-/// InputError for bad options, no Gaussians, no views, an image of another size than its camera or with values that are
-/// not finite; compute::DeviceError from the device. A run can be left after any step: gaussians() is complete then.
-/// Blocks. Not thread safe.
+/// Fits Gaussians to posed images and to the surface they were made from: render, losses, gradients, Adam, one image
+/// per step. Source: Kerbl et al. 2023, sections 5 and 7; order of views: a new seeded shuffle every round, each view
+/// once.
+/// Differs: the default preset starts with the Gaussians of a cloud, which are on the surface already; it splits and
+/// clones up to a budget and prunes, but never resets opacities. Accurate depth has priority over the last decibel of
+/// PSNR: Gaussians move little, keep their planes and their thickness, rendered depth is tied to the surface's, and all
+/// rates fall, so that the result does not depend on the last views seen.
+/// Frames: Gaussians and poses in one world frame [m]. Same seed, input and device: the same bits, whatever the
+/// threads, and whether the run was stopped and resumed. If the PSNR collapses (TrainingGuard), training goes back to
+/// its best state and on from there without densification; if it collapses without densification, it ends with its best
+/// state; a warning on the log says so. The guard waits for half a reset interval after an opacity reset, which lowers
+/// the PSNR on purpose. Throws InputError for bad options, no Gaussians, no views, an image of another size than its
+/// camera or with values that are not finite; compute::DeviceError from the device. A run can be left after any step:
+/// gaussians() is complete then. Blocks. Not thread safe.
 class Trainer {
  public:
   /// views and surface must outlive the trainer. surface: what depth is trained on, in the frame of the Gaussians (the
@@ -51,13 +53,13 @@ class Trainer {
   Trainer(const compute::Context& context, const TrainerOptions& options, const Gaussians& initial,
           TrainingViews& views, MapView* surface = nullptr);
 
-  /// True when all iterations are done, or no more are worth doing; step() then does nothing more and returns the last
-  /// step.
+  /// True when all iterations are done, or training has ended early (TrainingGuard); step() then does nothing more and
+  /// returns the last step.
   bool done() const { return ended_early_ || iteration_ >= options_.iterations; }
   TrainingStep step();
-  /// The exposures that were learnt beside the map.
+  /// The exposures that were trained with the map.
   const Exposures& exposures() const { return exposures_; }
-  /// The Gaussians as they are now.
+  /// The Gaussians at the current step.
   Gaussians gaussians() const { return gaussians_.download(); }
   TrainingReport report() const;
   const TrainerOptions& options() const { return options_; }
@@ -65,8 +67,8 @@ class Trainer {
 
   /// All of the run's state, to go on from here, in this or another process.
   Checkpoint checkpoint() const;
-  /// Takes up the run of a checkpoint of a trainer with the same options, views and start. InputError naming what
-  /// differs, or what no run can hold.
+  /// Continues the run of a checkpoint of a trainer with the same options, views and start. InputError naming what
+  /// differs, or what is no valid state of a run.
   void resume(const Checkpoint& checkpoint);
 
  private:
@@ -108,7 +110,7 @@ class Trainer {
 
   int iteration_ = 0;
   int round_ = -1;
-  std::vector<int> order_;  // views of the present round
+  std::vector<int> order_;  // views of the current round
   // Last values of every view at full size; negative: none yet.
   std::vector<double> psnr_db_, depth_errors_;
   TrainingStep last_;

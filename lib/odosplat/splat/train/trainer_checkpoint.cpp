@@ -102,7 +102,7 @@ void Trainer::resume(const Checkpoint& c) {
   const double most_levels = options_.coarse_levels;
   require(guard[0] <= most_levels && guard[3] <= most_levels && guard[1] <= 2 * TrainingGuard::interval, "guard",
           "the state of a guard of this run");
-  if (!best.empty()) set_state(best);  // a damaged one is refused before it is needed
+  if (!best.empty()) set_state(best);  // refuses a damaged one before it is needed
   set_state(c);
   best_ = std::move(best);
   undone_ = static_cast<int>(undone[0]);

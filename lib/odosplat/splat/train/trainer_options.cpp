@@ -100,7 +100,7 @@ std::vector<std::string> TrainerOptions::describe() const {
 TrainerOptions TrainerOptions::preset(const std::string& name, int views) {
   TrainerOptions options;
   if (name == "default") {
-    // Finer colours hold the camera better, and many images need more steps (docs/rules.md).
+    // Finer colours make tracking more accurate, and many images need more steps (docs/rules.md).
     constexpr int rounds = 8;
     options.iterations = std::max(4000, rounds * views);
     options.densify.method = DensifyMethod::split;

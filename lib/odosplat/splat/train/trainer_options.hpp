@@ -31,7 +31,7 @@ struct TrainerOptions {
   int sh_interval = 400;      // steps from one degree of spherical harmonics to the next, >= 0; 0: all from the start
 
   PositionLength position_length = PositionLength::gaussian_size;
-  // Adam rates a step at the start. Those not given in units are of the attribute as it is stored.
+  // Adam rates per step, at the start. Those without a unit are of the attribute as it is stored.
   double position_rate = 5e-3;        // [position lengths]
   double position_rate_final = 5e-5;  // [position lengths] reached log-linearly at the last step
   double scale_rate = 5e-3;           // of log scales
@@ -39,10 +39,12 @@ struct TrainerOptions {
   double opacity_rate = 2e-2;         // of opacity logits
   double color_rate = 1e-2;           // of SH of degree 0
   double sh_rate = 5e-4;              // of the other SH
-  double final_share = 0.1;           // all rates but that of positions fall log-linearly to this share of theirs, 0..1
+  double final_share = 0.1;           // all rates but that of positions fall log-linearly to this share of their start,
+                                      // 0..1
   bool keep_thickness = true;         // the third axis (of discs: across the surface) is left as it is
 
-  double largest_growth = 3.0;  // no axis grows beyond this many times its start (silhouettes), >= 1; 0: no limit
+  double largest_growth = 3.0;  // no axis grows beyond this many times its start, as it would at silhouettes, >= 1; 0:
+                                // no limit
 
   LossOptions loss;
   DepthLossOptions depth;       // used where the trainer is given a surface
@@ -54,14 +56,14 @@ struct TrainerOptions {
   AdamOptions adam;
   RasterizerOptions rasterizer{.order = BlendOrder::distance};
 
-  /// views: the images that there are; many get more iterations, 0: as if they were few.
-  /// "default": depth is kept while colours are learnt. "paper": the public recipe of the paper's code (rates of
+  /// views: number of images; many images get more iterations, 0 gets the least number.
+  /// "default": depth is kept while colours are trained. "paper": the public recipe of the paper's code (rates of
   /// GS-DSO's fork of OpenSplat, 20 000 steps, levels /4, /2, 1, no decay but of positions, no depth, clone and split,
   /// opacity resets). Throws InputError else.
   static TrainerOptions preset(const std::string& name, int views = 0);
   /// Throws InputError naming the field.
   void check() const;
-  /// One line "name value" a setting, for the header of the map.
+  /// One line "name value" per setting, for the header of the map.
   std::vector<std::string> describe() const;
 };
 

@@ -29,7 +29,7 @@ TrainingGuard::Verdict TrainingGuard::judge(bool at_end) {
   steps_ = 0;
   const bool first = best_level_ < 0;
   const bool same_level = best_level_ == level_;
-  // What is not a number has fallen.
+  // Written so that a mean that is not a number counts as fallen.
   if (!first && !(last_db_ >= best_db_ - (same_level ? fall_db : 2.0 * fall_db))) {
     return ++falls_ >= patience || at_end || !std::isfinite(last_db_) ? Verdict::fallen : Verdict::nothing;
   }
@@ -55,7 +55,7 @@ void TrainingGuard::set_state(const std::vector<double>& state) {
   const auto whole = [&](std::size_t i, double least) {
     return state[i] >= least && state[i] <= std::numeric_limits<int>::max() && state[i] == std::floor(state[i]);
   };
-  // Means may be no numbers: that is what a run that fell can be left with.
+  // Means may be no numbers: a run that collapsed can have such.
   require(state.size() == 8 && whole(0, 0.0) && whole(1, 0.0) && whole(3, -1.0) && std::isfinite(state[4]) &&
               whole(6, 0.0) && whole(7, 0.0),
           "guard", "the state of a guard");

@@ -7,10 +7,11 @@
 
 namespace odosplat {
 
-/// Tells when training has fallen: the mean PSNR of the steps since the last judgement is more than fall_db below the
-/// best such mean before, `patience` times in a row, since what densification adds takes a while to fit; at the end of
-/// training once is enough. From one image level to the next the images differ, so that twice the fall is allowed
-/// there; the best starts anew at each level. A mean of fewer than least_steps is not judged. Not thread safe.
+/// Detects that training has collapsed: the mean PSNR of the steps since the last judgement is more than fall_db below
+/// the best such mean before, `patience` times in a row, since Gaussians added by densification take a while to fit; at
+/// the end of training once is enough. From one image level to the next the images differ, so that twice the fall is
+/// allowed there; the best starts anew at each level. A mean of fewer than least_steps is not judged, one that is not
+/// finite counts as a collapse at once. Not thread safe.
 class TrainingGuard {
  public:
   static constexpr int interval = 100;    // [steps] between judgements
@@ -26,7 +27,8 @@ class TrainingGuard {
 
   /// The PSNR [dB] that a step found, iteration 1 for the first.
   void add(int iteration, int level, double psnr_db);
-  /// Steps up to `iteration` are not counted: what was done on purpose (an opacity reset) takes time to mend.
+  /// Steps up to `iteration` are not counted: training needs time to recover from an intended change (an opacity
+  /// reset).
   void pause(int iteration);
   Verdict judge(bool at_end = false);
   /// The mean that the last judgement was about, and the best so far [dB].

@@ -11,9 +11,10 @@
 namespace odosplat {
 
 namespace {
-// Depth whose standard deviation is this share of it counts half.
+// Depth with a standard deviation of this share of it has half the weight.
 constexpr float uncertain_share = 0.01F;
-// Around a step in depth the cloud does not say to the pixel where one surface ends: only the images do.
+// Near a step in depth the cloud does not show to the pixel where a surface ends, as the images do: no depth is used
+// there.
 constexpr int edge_radius = 2;       // [px]
 constexpr float edge_share = 0.05F;  // of depth
 

@@ -27,16 +27,16 @@ class TrainingViews {
   virtual SE3 T_world_camera(int i) const = 0;
   /// Image of view i, as large as its camera says, values 0..1.
   virtual ColorImage color(int i) = 0;
-  /// Measured depth of view i as its camera sees it [m], if there is any (else empty): not trained on, but what the
-  /// map's sigma is calibrated with.
+  /// Measured depth of view i as its camera sees it [m], if there is any (else empty): not used in training, but to
+  /// calibrate the map's sigma.
   virtual DepthImage depth(int) { return {}; }
 };
 
-/// What a step of training compares with, in device memory: the image at a level of its pyramid, and the depth of the
+/// The targets of a step of training, in device memory: the image at a level of its pyramid, and the depth of the
 /// surface seen from there. Depth is that of a MapView (the cloud, projected with an occlusion test); it is rendered
-/// once a view and level and kept in 3 bytes a pixel, up to cache_bytes in all (what does not fit is rendered again);
-/// kept or not, it is the same to the bit. Throws InputError for an image of another size than its camera or with
-/// values that are not finite. Not thread safe.
+/// once for each view and level and kept in 3 bytes per pixel, up to cache_bytes in all (what does not fit is rendered
+/// again); kept or not, it is the same to the bit. Throws InputError for an image of another size than its camera or
+/// with values that are not finite. Not thread safe.
 class TrainingTargets {
  public:
   /// views and surface (may be null: no depth) must outlive it.

@@ -10,8 +10,8 @@ namespace odosplat {
 /// Largest distance of a camera from the mean of all [m]; 1 where all stand in one place.
 double camera_extent(const TrainingViews& views);
 
-/// Width of a pixel [m] at the distance of what the images show: the median over Gaussians in images, some of each,
-/// evenly spread, nothing hidden; 0 where no image sees any.
+/// Width of a pixel [m] at the distance of what the images show: the median over samples of Gaussians and images,
+/// evenly spread, without regard to occlusion; 0 where no image sees any.
 double pixel_width(const Gaussians& gaussians, const TrainingViews& views);
 
 }  // namespace odosplat

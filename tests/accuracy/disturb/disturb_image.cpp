@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "tests/accuracy/disturb_image.hpp"
+#include "tests/accuracy/disturb/disturb_image.hpp"
 
 #include <algorithm>
 #include <cmath>

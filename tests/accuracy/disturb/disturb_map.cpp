@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "tests/accuracy/disturb_map.hpp"
+#include "tests/accuracy/disturb/disturb_map.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

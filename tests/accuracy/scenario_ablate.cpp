@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "apps/command/number_flags.hpp"
+#include "apps/command/support.hpp"
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/upper_median.hpp"
+#include "tests/accuracy/disturb/disturb_image.hpp"
+#include "tests/accuracy/disturb/disturbances.hpp"
+#include "tests/accuracy/output.hpp"
+#include "tests/accuracy/rules.hpp"
+#include "tests/accuracy/scenarios.hpp"
+
+namespace odosplat::accuracy {
+namespace {
+
+struct AblateFlags {
+  Job job;
+  std::vector<std::string> rules;  // empty: all
+  std::vector<std::string> under{"plain"};
+  DisturbanceOptions strength;
+  int seeds = 3;
+};
+
+/// What is compared of a run: lower is better, for all of it.
+struct Figures {
+  double ate_mm = 0.0;
+  double lost = 0.0;
+  double wrong = 0.0;  // in the map by the odometry's word, and plainly wrong
+  double nees = 0.0;   // mean normalised error squared
+  double cpu_ms = 0.0;
+};
+
+Figures figures_of(const Run& run) {
+  const Judged judged = judge(run);
+  const RecoveryBars bars;
+  Figures figures;
+  const double nothing = std::numeric_limits<double>::infinity();
+  figures.ate_mm = judged.ate_m.count > 0 ? 1000.0 * judged.ate_m.rmse : nothing;
+  figures.lost = static_cast<double>(judged.lost);
+  for (const PlayedFrame& frame : run.frames) {
+    if (frame.result.status == TrackStatus::lost || !frame.result.in_map) continue;
+    const PoseError error = pose_error(frame);
+    if (error.meters > bars.wrong_m || error.degrees > bars.wrong_deg) figures.wrong += 1.0;
+  }
+  figures.nees = consistency(run).all.mean;
+  figures.cpu_ms = run.cpu_ms;
+  return figures;
+}
+
+double median_of(const std::vector<Figures>& runs, double Figures::*figure) {
+  std::vector<double> values;
+  for (const Figures& run : runs) values.push_back(run.*figure);
+  return upper_median(values);
+}
+
+/// Largest less smallest.
+double spread_of(const std::vector<Figures>& runs, double Figures::*figure) {
+  const auto [least, most] = std::minmax_element(
+      runs.begin(), runs.end(), [figure](const Figures& a, const Figures& b) { return a.*figure < b.*figure; });
+  return (*most).*figure - (*least).*figure;
+}
+
+/// A rule's row: the medians with it off, and whether it pays: without it more frames are lost or wrong, or the error
+/// grows by more than both spreads.
+Row row_without(const World& world, const std::string& under, const std::string& rule, const std::vector<Figures>& off,
+                const std::vector<Figures>& on) {
+  const double ate_off = median_of(off, &Figures::ate_mm);
+  const double ate_on = median_of(on, &Figures::ate_mm);
+  const double spread = std::max(spread_of(off, &Figures::ate_mm), spread_of(on, &Figures::ate_mm));
+  const bool pays = ate_off > ate_on + spread || median_of(off, &Figures::lost) > median_of(on, &Figures::lost) ||
+                    median_of(off, &Figures::wrong) > median_of(on, &Figures::wrong);
+  return Row()
+      .text("set", world.name())
+      .text("under", under)
+      .text("without", rule)
+      .number("ate_mm", ate_off, 2)
+      .number("spread_mm", spread_of(off, &Figures::ate_mm), 2)
+      .number("ratio", ate_off / ate_on, 3)
+      .number("lost", median_of(off, &Figures::lost), 0)
+      .number("wrong", median_of(off, &Figures::wrong), 0)
+      .number("nees", median_of(off, &Figures::nees), 1)
+      .number("cpu_ms", median_of(off, &Figures::cpu_ms), 1)
+      .flag("pays", pays);
+}
+
+/// One condition: every rule in turn, with every seed.
+void ablate(const apps::Common& common, const World& world, const AblateFlags& flags, const std::string& under,
+            Output& out) {
+  std::vector<const Rule*> chosen;
+  for (const Rule& rule : rules()) {
+    if (flags.rules.empty() || std::count(flags.rules.begin(), flags.rules.end(), rule.name) > 0) {
+      chosen.push_back(&rule);
+    }
+  }
+  std::vector<Figures> on;
+  std::vector<std::vector<Figures>> off(chosen.size());
+  const DamagedMaps folder;
+  for (int n = 0; n < flags.seeds; ++n) {
+    apps::TrackJob job = flags.job.track;
+    job.seed += static_cast<std::uint64_t>(n);
+    const auto edit = image_disturbance(under, world, flags.strength, job.seed);
+    apps::MapFlags map = job.map;
+    double share = 0.0;
+    if (const MapEdit damage = map_disturbance(under, flags.strength, job.seed); damage) {
+      map = edited_map(job.map, damage, folder.path(), share);
+    }
+    apps::OpenedView opened = apps::open_view(common, job.method, map);
+    const auto run_of = [&](const std::string& rule, const OptionEdit& option, double gain) {
+      const auto scaled = [edit, gain](std::size_t frame) -> ImageEdit {
+        const ImageEdit before = edit ? edit(frame) : ImageEdit();
+        if (gain == 1.0) return before;
+        return [before, gain](const GrayImage& image) { return with_gain(before ? before(image) : image, gain); };
+      };
+      const std::string label = under + ", seed " + std::to_string(n + 1) + ", " + rule;
+      const Run run = play(world, opened, job, in_order(world, 0, world.size(), scaled), label, option);
+      out.trace(world, label, run);
+      return figures_of(run);
+    };
+    on.push_back(run_of("all rules", {}, 1.0));
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      off[k].push_back(run_of(std::string("without ") + chosen[k]->name, chosen[k]->off, chosen[k]->gain));
+    }
+  }
+  out.add(row_without(world, under, "-", on, on));
+  for (std::size_t k = 0; k < chosen.size(); ++k) out.add(row_without(world, under, chosen[k]->name, off[k], on));
+}
+
+void run_ablate(const apps::Common& common, const AblateFlags& flags) {
+  Output out(flags.job);
+  const World world(flags.job);
+  for (const std::string& under : flags.under) ablate(common, world, flags, under, out);
+  out.write();
+}
+
+}  // namespace
+
+void add_ablate(CLI::App& app, apps::Common& common) {
+  CLI::App* command = apps::add_command(
+      app, common, "ablate",
+      "the odometry's rules switched off, one at a time: medians over seeds of ATE, its spread, lost frames, wrong "
+      "poses that count as in the map, normalised error squared and CPU time; a rule pays if without it more frames "
+      "are "
+      "lost or wrong, or ATE grows by more than the spread");
+  auto flags = std::make_shared<AblateFlags>();
+  std::vector<std::string> rule_names;
+  for (const Rule& rule : rules()) rule_names.emplace_back(rule.name);
+  std::vector<std::string> conditions{"plain"};
+  for (const auto* names : {&image_disturbances(), &map_disturbances()}) {
+    conditions.insert(conditions.end(), names->begin(), names->end());
+  }
+  add_job_flags(command, flags->job);
+  command->add_option("--rules", flags->rules, "the rules in question, by their names (default: all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(rule_names));
+  command->add_option("--under", flags->under, "plain, or disturbances as of `disturb`, one after the other")
+      ->delimiter(',')
+      ->check(CLI::IsMember(conditions));
+  apps::add_number(command, "--seeds", flags->seeds, {.least = 1, .most = 100},
+                   "runs with seeds from --seed on: of the pixel selector and of the disturbance");
+  add_disturbance_flags(command, flags->strength);
+  command->final_callback([&common, flags] { run_ablate(common, *flags); });
+}
+
+}  // namespace odosplat::accuracy
