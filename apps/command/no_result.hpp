@@ -7,7 +7,8 @@
 namespace odosplat::apps {
 
 /// The run was carried out, but its result is not usable: less than half of an estimate was matched, no frame got a
-/// pose, or the checked data are not shown to agree. The program prints the reason in one line and exits with status 3.
+/// pose, or a check found that the data disagree or could not decide. The program prints the reason in one line and exits
+/// with status 3.
 class NoResult : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
