@@ -31,7 +31,7 @@ __kernel void adam_step(__global float* restrict parameters, const __global floa
   }
 }
 
-/* parameters [n] are held at or below bound [n]. A work-item does 16 elements. */
+/* parameters [n] = min(parameters, bound [n]). A work-item updates 16 elements. */
 __kernel void limit_above(__global float* restrict parameters, const __global float* restrict bound, uint n) {
   const uint i = (uint)get_global_id(0) * 16u;
   if (i >= n) return;

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
    Front-to-back compositing of the tiles' lists into images.
-   Built with WITH_COLOR, WITH_SIGMA, DEPTH_MODE and one shell: SHELL_TILE (item a tile, a block of 4 x 4 pixels at a time,
-   all sums in private arrays, no barrier: for CPUs) or not (item a pixel, group a tile, splats through local memory).
-   wanted: bits of the blocks to make, a word a tile (block b: bit b, as in raster_common.cl), where `sparse`; else all are
-   made. Pixels of other blocks are left as they are (the pixel shell makes all of a tile that has a wanted block).
-   One step, the same in both, for VW pixels against one splat: */
+   Built with WITH_COLOR, WITH_SIGMA, DEPTH_MODE and one of two shells:
+     SHELL_TILE set (for CPUs): one item per tile, one block of 4 x 4 pixels at a time, all sums in private arrays, no
+       barrier
+     SHELL_TILE not set (pixel shell, for GPUs): one item per pixel, one group per tile, splats through local memory
+   Both use the same step, add_splat, for VW pixels and one splat.
+   wanted: if `sparse`, the blocks to render, one word per tile (block b: bit b, as in raster_common.cl); otherwise all
+   are rendered. Pixels of other blocks are not written (the pixel shell renders all of a tile that has a wanted
+   block). */
 
 #define WITH_SPREAD (WITH_SIGMA || DEPTH_MODE == DEPTH_SURFACE)
 
@@ -15,10 +18,10 @@ typedef struct {
   fV r, g, b;
 #endif
 #if WITH_DEPTH
-  fV depth; /* with spread: of the difference to `first` */
+  fV depth; /* with spread: weighted sum of the difference to `first` */
 #endif
 #if WITH_SPREAD
-  fV first, square; /* depth of the first Gaussian: sums of small differences keep their digits */
+  fV first, square; /* first: depth of the first Gaussian; sums of differences to it lose less precision */
 #endif
 #if WITH_SIGMA
   fV steepness;
@@ -50,7 +53,7 @@ inline void clear_pixels(Pixels* s) {
 #endif
 }
 
-/* e: log2 alpha of the splat at the pixels; ratio: by what its centre's depth is divided there. */
+/* Adds a splat to the pixels. e: its log2 alpha at the pixels; ratio: divisor of its centre's depth there. */
 inline void add_splat(Pixels* s, fV e, fV ratio, float depth, float steepness, float4 color) {
   const fV T = s->T;
   const iV m = MASK((e >= LOG2_MIN_ALPHA) & (T >= MIN_TRANSMITTANCE));
@@ -85,9 +88,9 @@ inline void add_splat(Pixels* s, fV e, fV ratio, float depth, float steepness, f
 #endif
 }
 
-/* What the images hold, from the sums. */
+/* Values of the images, from the sums. */
 #if WITH_SPREAD
-/* Squared standard deviation of depth along the ray; garbage where no Gaussian touches. */
+/* Squared standard deviation of depth along the ray; undefined for pixels that no Gaussian reaches. */
 inline fV squared_spread(const Pixels* s) {
   const fV inverse = 1.0f / (1.0f - s->T);
   const fV mean = s->depth * inverse;
@@ -100,7 +103,7 @@ inline fV final_depth(const Pixels* s) {
 #if WITH_SPREAD
   const fV mean = s->first + s->depth / (1.0f - s->T);
 #if DEPTH_MODE == DEPTH_SURFACE
-  /* Pixels covered by less than a half have no median. */
+  /* Pixels with alpha below 0.5 have no median. */
   const iV mixed = MASK((squared_spread(s) > (SURFACE_SPREAD * SURFACE_SPREAD) * mean * mean) & (s->median > 0.0f));
   return KEEP(CHOOSE(mean, s->median, mixed), touched);
 #else
@@ -115,7 +118,8 @@ inline fV final_depth(const Pixels* s) {
   return (fV)(0.0f);
 #endif
 }
-/* model: squares of the factors of spread, steepness, depth, and of depth times transmittance (SigmaModel). */
+/* Standard deviation of depth. model: squared factors of spread, steepness, depth, and depth times transmittance
+   (SigmaModel). */
 inline fV final_sigma(const Pixels* s, fV depth, float4 model) {
 #if WITH_SIGMA
   const fV steepness = s->steepness / (1.0f - s->T);
@@ -136,7 +140,7 @@ inline fV final_sigma(const Pixels* s, fV depth, float4 model) {
 
 #if SHELL_TILE
 
-/* A block's pixels into the image: row by row, those inside it. */
+/* Writes a block's pixels, stored row by row, to the image; those outside are skipped. */
 inline void store_block(global float* restrict image, int2 at, int4 size, fV value) {
   if (at.x + BLOCK <= size.x && at.y + BLOCK <= size.y) {
     global float* to = image + at.y * size.x + at.x;
@@ -164,7 +168,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void composite(COMPOSITE_A
   for (int i = 0; i < BLOCKS; ++i) {
     const int2 at = corner + block_corner(i);
     clear_pixels(&sums[i]);
-    /* Pixels beyond the border count as finished. */
+    /* Pixels outside the image get transmittance 0, so they count as finished. */
     sums[i].T = KEEP((fV)(1.0f), inside_image(at, size));
     if (at.x < size.x && at.y < size.y) alive |= 1u << i;
   }
@@ -235,7 +239,7 @@ kernel __attribute__((reqd_work_group_size(TILE_WIDTH, TILE_HEIGHT, 1))) void co
   Pixels sums;
   clear_pixels(&sums);
   if (!inside) sums.T = 0.0f;
-  if (sparse && wanted[tile] == 0) return; /* the whole group */
+  if (sparse && wanted[tile] == 0) return; /* for all items of the group, so no barrier is missed */
   const uint begin = tile_start[tile], end = tile_start[tile + 1];
   for (uint base = begin; base < end; base += PIXEL_BATCH) {
     const int count = (int)min((uint)PIXEL_BATCH, end - base);

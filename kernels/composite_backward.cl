@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   Gradient of the images with respect to the splats, one slot of sums a (Gaussian, tile) pair (layout: raster_common.cl).
-   Front to back as in composite.cl, with the same masks: the gradient of a pixel is G = sum_i w_i v_i with
-   v = alpha gradient + depth gradient * (z - reference) + colour gradient . colour, and what lies behind Gaussian i is
-   the total less what came up to i. No division by the transmittance.
+   Gradient of the images with respect to the splats: one slot of sums for each (Gaussian, tile) pair (layout:
+   raster_common.cl). Front to back as in composite.cl, with the same masks: the gradient of a pixel is G = sum_i w_i
+   v_i with v = alpha gradient + depth gradient * (z - reference) + colour gradient . colour. The part of G that lies
+   behind Gaussian i is the total minus the terms up to i. This needs no division by the transmittance.
    reference: for expected depth D the pixel's own D (then dD = sum w (z - D) / alpha, and the total is 0), else 0. */
 
 typedef struct {
   fV alpha;   /* dL/dalpha of the pixel */
-  fV behind;  /* sum of w v of what has not come yet */
+  fV behind;  /* sum of w v over the Gaussians not yet processed */
 #if WITH_DEPTH
   fV depth, reference;
 #endif
@@ -18,7 +18,7 @@ typedef struct {
 } PixelGradients;
 
 #if SHELL_TILE
-/* The block of pixels with first pixel (at % size.x, at / size.x); 0 for those outside the image. */
+/* Loads the block with first pixel (at % size.x, at / size.x); 0 for pixels outside the image. */
 inline fV load_pixels(global const float* restrict image, int at, int4 size) {
   const int x = at % size.x, y = at / size.x;
   if (x + BLOCK <= size.x && y + BLOCK <= size.y) {
@@ -88,7 +88,8 @@ inline void clear_sums(Sums* s) {
 #endif
 }
 
-/* (dx, dy): from the splat's centre to the pixels; e, ratio_free: as `e` and `ratio` of add_splat in composite.cl. */
+/* Adds the pixels' gradients by one splat to its sums and returns the transmittance after it. (dx, dy): from the
+   splat's centre to the pixels; e, ratio_free: as `e` and `ratio` of add_splat in composite.cl. */
 inline fV add_gradient(Sums* s, fV T, fV* behind, const PixelGradients* p, fV dx, fV dy, fV e, fV ratio_free, float depth,
                        float4 color) {
   const iV m = MASK((e >= LOG2_MIN_ALPHA) & (T >= MIN_TRANSMITTANCE));
@@ -122,7 +123,7 @@ inline fV add_gradient(Sums* s, fV T, fV* behind, const PixelGradients* p, fV dx
 #endif
   const fV wv = w * v;
   *behind = *behind - wv;
-  /* dL/d ln alpha; none where alpha is at its cap. */
+  /* dL/d ln alpha; 0 where alpha is limited to MAX_ALPHA. */
   const fV h = KEEP(wv - alpha * *behind / (1.0f - alpha), MASK(full < MAX_ALPHA));
   const fV hx = h * dx;
   s->h = s->h + h;
@@ -228,8 +229,8 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void composite_backward(BA
 
 #else
 
-/* One group a tile, one item a splat, the tile's pixels passing from item to item: item i works on pixel `step - i`, so
-   that every pixel meets the splats in order, and every item sums its splat's pixels in order, without reductions. */
+/* A pipeline: one group per tile, one item per splat. In each step item i processes pixel `step - i`, so that the
+   splats are applied to every pixel in order, and every item sums its splat's pixels in order, without reductions. */
 #define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
 kernel __attribute__((reqd_work_group_size(PIXEL_BATCH, 1, 1))) void composite_backward(BACKWARD_ARGUMENTS) {
   local float T[TILE_PIXELS], behind[TILE_PIXELS], g_alpha[TILE_PIXELS];

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
 
-   The depth term of the trainer and its gradient, a row of the image an item (a fixed order of sums).
+   The depth term of the trainer and its gradient, one item per row of the image (so the order of sums is fixed).
    With r = (rendered - target) / target where both have depth: rho(r) = min(sqrt(r^2 + DEPTH_KNEE^2), cut) times the
-   pixel's weight. Beyond `cut` another surface is meant, and nothing pulls.
+   pixel's weight. Beyond `cut` the target is taken to be another surface, and the gradient is 0.
    rendered, target [height x width] m, weight [height x width] 0..1 -> gradient [height x width], the derivative of
    scale * sum(weight rho); rows [2 x height]: sums of weight rho and of weight. */
 #define DEPTH_KNEE 1.0e-3f
@@ -38,7 +38,7 @@ __kernel void depth_loss(const __global float* restrict rendered, const __global
     } else {
       float v[8];
       vstore8(slope, 0, v);
-      /* A loop of known length: v stays in registers. */
+      /* The constant length lets the compiler keep v in registers. */
       for (int i = 0; i < 8; ++i)
         if (x + i < width) gradient[begin + x + i] = v[i];
     }

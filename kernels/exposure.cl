@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
 
-   Exposure of an image: channel c of the rendered image becomes gain_c * value + offset_c (settings: gains, offsets). */
+   Exposure of an image: channel c of the rendered image becomes gain_c * value + offset_c (settings: gains,
+   offsets). */
 __kernel void expose(int pixels, const __global float* restrict rendered, float8 settings, __global float* restrict exposed) {
   const int i = get_global_id(0);
   if (i >= pixels) return;
@@ -10,8 +11,9 @@ __kernel void expose(int pixels, const __global float* restrict rendered, float8
   exposed[2 * pixels + i] = settings.s2 * rendered[2 * pixels + i] + settings.s5;
 }
 
-/* One channel, whose gain is given: gradient [3 x height x width] by the exposed image becomes the one by the rendered
-   image. rows [2 x 3 x height]: sums over a row of the derivatives by gain and by offset. An item a row. */
+/* For one channel and its gain: turns the gradient [3 x height x width] with respect to the exposed image into that
+   with respect to the rendered image, in place. rows [2 x 3 x height]: sums over a row of the derivatives by gain and
+   by offset. One item per row. */
 __kernel void expose_backward(int width, int height, int channel, float gain, const __global float* restrict rendered,
                               __global float* restrict gradient, __global float* restrict rows) {
   const int y = get_global_id(0);

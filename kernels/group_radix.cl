@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   One pass of a stable radix sort of indices by 32-bit keys over groups, for GPUs; goes behind group_scan.cl. A group
-   has RADIX_GROUP_KEYS places of the order, an item RADIX_ITEM_KEYS of them in turn. radix_sort.cl does the same over
-   long chunks, for CPUs; a stable sort has one right answer.
-   counts, digit by digit: [RADIX_DIGITS x groups]; their exclusive scan says where each group writes each digit. */
+   One pass of a stable radix sort of indices by 32-bit keys over groups, for GPUs; compiled after group_scan.cl. A
+   group sorts RADIX_GROUP_KEYS consecutive places of the order, an item RADIX_ITEM_KEYS consecutive ones of these.
+   radix_sort.cl does the same over long chunks, for CPUs; the result of a stable sort is unique, so both agree.
+   counts, digit by digit: [RADIX_DIGITS x groups]; their exclusive scan gives where each group writes each digit. */
 
 /* `first` != 0: the input order is 0, 1, 2, ... and is not read. */
 static inline uint group_radix_index(global const uint* restrict order, uint i, int first) {
@@ -28,7 +28,7 @@ kernel __attribute__((reqd_work_group_size(SCAN_GROUP, 1, 1))) void group_radix_
 kernel __attribute__((reqd_work_group_size(SCAN_GROUP, 1, 1))) void group_radix_scatter(
     global const uint* restrict keys, global const uint* restrict order, global const uint* restrict starts,
     global uint* restrict out, uint n, uint shift, int first) {
-  /* Of each digit and item: its keys, then the place of its next one among the group's. */
+  /* For each digit and item: first the number of its keys, then the place in the group of its next key. */
   local ushort place[RADIX_DIGITS][SCAN_GROUP];
   local uint shared[SCAN_GROUP];
   local uint base[RADIX_DIGITS];
@@ -40,7 +40,7 @@ kernel __attribute__((reqd_work_group_size(SCAN_GROUP, 1, 1))) void group_radix_
     ++place[(keys[group_radix_index(order, i, first)] >> shift) & (RADIX_DIGITS - 1)][lane];
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  /* Scan of the table, digit by digit: this item has SCAN_GROUP / RADIX_DIGITS items' worth of one digit, in turn. */
+  /* Scan of the table, digit by digit: each item scans RADIX_DIGITS consecutive entries of one digit's row. */
   const uint row = lane / (SCAN_GROUP / RADIX_DIGITS);
   const uint column = (lane % (SCAN_GROUP / RADIX_DIGITS)) * RADIX_DIGITS;
   uint sum = 0;

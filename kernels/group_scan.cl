@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   Prefix sums by groups of SCAN_GROUP items, for GPUs; scan.cl does the same over long chunks, for CPUs. Integers, so
-   the results are equal. */
+   Prefix sums by groups of SCAN_GROUP items, for GPUs; scan.cl does the same over long chunks, for CPUs. The sums are
+   of integers, so both results are equal. */
 
-/* Sum of `value` over the items before this one, and in *total over all of the group. All items must come here; `shared`
-   has SCAN_GROUP elements and may be used again after the next barrier. */
+/* Returns the sum of `value` over the items before this one; *total is the sum over the group. All items of the group
+   must call it; `shared` has SCAN_GROUP elements and may be used again after the next barrier. */
 static inline uint group_scan(uint value, local uint* shared, uint* total) {
   const uint lane = (uint)get_local_id(0);
   uint sum = value;
@@ -21,7 +21,7 @@ static inline uint group_scan(uint value, local uint* shared, uint* total) {
   return sum - value;
 }
 
-/* sums[b]: sum of block b of SCAN_BLOCK values. One group a block. */
+/* sums[b]: sum of block b of SCAN_BLOCK values. One group per block. */
 kernel __attribute__((reqd_work_group_size(SCAN_GROUP, 1, 1))) void group_scan_sums(
     global const uint* restrict values, global uint* restrict sums, uint n) {
   local uint shared[SCAN_GROUP];
@@ -34,7 +34,7 @@ kernel __attribute__((reqd_work_group_size(SCAN_GROUP, 1, 1))) void group_scan_s
   if (lane == 0) sums[block] = total;
 }
 
-/* Sums of blocks become their starts, and out[n] the total. One group in all. */
+/* Replaces the blocks' sums by their exclusive prefix sums; out[n] is the total. A single group. */
 kernel __attribute__((reqd_work_group_size(SCAN_GROUP, 1, 1))) void group_scan_starts(
     global uint* restrict sums, global uint* restrict out, uint blocks, uint n) {
   local uint shared[SCAN_GROUP];
@@ -51,7 +51,7 @@ kernel __attribute__((reqd_work_group_size(SCAN_GROUP, 1, 1))) void group_scan_s
   if (lane == 0) out[n] = carry;
 }
 
-/* An item takes four values in turn. */
+/* Each item scans four consecutive values. */
 kernel __attribute__((reqd_work_group_size(SCAN_GROUP, 1, 1))) void group_scan_write(
     global const uint* restrict values, global const uint* restrict starts, global uint* restrict out, uint n) {
   local uint shared[SCAN_GROUP];

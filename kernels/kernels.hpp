@@ -6,8 +6,8 @@
 
 namespace odosplat::kernels {
 
-/// Text of one file of this folder, as it was when the library was built ("composite.cl", "constants.h").
-/// Throws std::logic_error for a name that is not there: the names are written in our own code, never by a user.
+/// Text of one file of this folder ("composite.cl", "constants.h"), embedded when the library was built.
+/// Throws std::logic_error for an unknown name, since names come only from this project's code, never from a user.
 std::string_view source(std::string_view name);
 
 }  // namespace odosplat::kernels

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
 
-   The image loss of the trainer and its gradient; goes behind ssim.cl in one program.
+   The image loss of the trainer and its gradient; compiled after ssim.cl in the same program.
    loss = color_weight * mean colour difference + ssim_weight * (1 - mean SSIM). */
 
-/* Gradient of the loss by the rendered image [3 x height x width], and values [3 x 3 x height x blocks]: behind the
-   SSIM sums of ssim_horizontal, sums over 8 pixels of |difference| and of its square. Last direction of the transposed window of ssim.cl.
+/* Gradient of the loss with respect to the rendered image [3 x height x width]; applies the horizontal direction of
+   ssim.cl's transposed window, the last one. values [3 x 3 x height x blocks]: after the SSIM sums of ssim_horizontal
+   it writes the sums over 8 pixels of |difference| and of its square.
    color_scale = color_weight / n, ssim_scale = ssim_weight / n with n = 3 width height; squared != 0: L2, else L1. */
 __kernel void loss_gradient(const __global float* restrict rendered, const __global float* restrict target,
                             const __global float* restrict spread, __global float* restrict gradient,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   Sums of POSE_CHUNK Gaussians in order. */
+   Sums the pose gradients of POSE_CHUNK Gaussians in order, one item per chunk. */
 kernel void sum_pose_terms(int n, global const float* restrict pose_terms, global float* restrict sums) {
   const int chunk = get_global_id(0);
   const int begin = chunk * POSE_CHUNK, end = min(n, begin + POSE_CHUNK);

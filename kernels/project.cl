@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   One item GW Gaussians: their splats, their depths or distances as sort keys (~0: not drawn), the numbers of tiles they
-   reach, and their ellipses for emit_pairs (tiles.cl comes first). selected, where `select`: which Gaussians, n of them;
-   all that is written is in its order. */
+   One item for GW Gaussians: computes their splats, their depths or distances as sort keys (~0: not drawn), the numbers
+   of tiles they reach, and their ellipses for emit_pairs. Compiled after tiles.cl. selected: if `select`, the indices
+   of the n Gaussians to project; all output is in their order. */
 
 /* Half of log2(e): exp(-q / 2) = 2^(-HALF_LOG2_E q). */
 #define HALF_LOG2_E 0.72134752f
-/* The tile test takes ellipses this much larger in log2 alpha, so that rounding cannot lose a pixel. */
+/* The tile test enlarges the ellipses by this much in log2 alpha, so that no pixel is lost by rounding. */
 #define TILE_TEST_MARGIN 1.0e-3f
 
 kernel void project(int n, int select, global const uint* restrict selected, global const float* restrict positions,

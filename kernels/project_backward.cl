@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   One item GW Gaussians: their pairs' sums in order, then the chain rule from the splat to what is trained and to the pose.
+   One item for GW Gaussians: sums their pairs' slots in order, then applies the chain rule from the splats to the
+   trained parameters and to the pose.
    Derivation: with K the conic and S = K^-1 the dilated covariance, dL/dS = -K dL/dK K; the rest follows the steps of
    project_one and depth_slope from the last to the first. */
 
@@ -18,7 +19,7 @@ inline gV scaled_g(gF k, gV a) { return make_gV(k * a.x, k * a.y, k * a.z); }
 /* a + k b */
 inline gV added_g(gV a, gF k, gV b) { return make_gV(a.x + k * b.x, a.y + k * b.y, a.z + k * b.z); }
 
-/* One value of each lane to values[stride * g + offset]: 0 for Gaussians without pairs. */
+/* Writes one value of each lane to values[stride * g + offset]: 0 for Gaussians without pairs. */
 inline void store_g(gF v, gI used, int lanes, int first, int stride, int offset, global float* restrict values) {
   float lane[GW];
   STORE_LANES(GKEEP(v, used), lane);
@@ -136,7 +137,7 @@ kernel void project_backward(int n, global const float* restrict positions, glob
   store_g(d_u, used, lanes, first, 2, 0, screen_gradients);
   store_g(d_v, used, lanes, first, 2, 1, screen_gradients);
 
-  /* To R = R_world_own: columns of dL/dV by the scales, then R_world_camera. Rows of A: dL/dR. */
+  /* Gradient by R = R_world_own: dL/dV is dL/dM with columns times the scales; A = R_world_camera dL/dV = dL/dR. */
   const gV d_V0 = times_g(d_M0, s.scale), d_V1 = times_g(d_M1, s.scale), d_V2 = times_g(d_M2, s.scale);
   const gV A0 = weighted_g(pose.s0, d_V0, pose.s3, d_V1, pose.s6, d_V2);
   const gV A1 = weighted_g(pose.s1, d_V0, pose.s4, d_V1, pose.s7, d_V2);
@@ -153,7 +154,7 @@ kernel void project_backward(int n, global const float* restrict positions, glob
   store_g((unit_z - along * z) / s.q_norm, used, lanes, first, 4, 3, rotation_gradients);
 
   if (with_pose) {
-    /* theta: p x dL/dp, and sum over columns k of M_k x (dL/dM)_k. */
+    /* Rotational part: p x dL/dp plus the sum over M's columns k of M_k x (dL/dM)_k. */
     const gV turn = plus_g(cross_g(s.p, d_p), make_gV(dot_g(s.M1, d_M2) - dot_g(s.M2, d_M1),
                                                       dot_g(s.M2, d_M0) - dot_g(s.M0, d_M2),
                                                       dot_g(s.M0, d_M1) - dot_g(s.M1, d_M0)));

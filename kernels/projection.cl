@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   EWA projection of one Gaussian with all that its gradient needs again (Zwicker et al. 2001, Kerbl et al. 2023).
+   EWA projection of a Gaussian, with all values that its gradient needs (Zwicker et al. 2001, Kerbl et al. 2023).
    pose: rotation world to camera row by row (0..8), translation (9..11), camera centre in the world (12..14).
-   lens: fx, fy, cx, cy, then the range of x/z and of y/z in which the perspective's slope follows the centre.
-   GW Gaussians at once, side by side in vectors: 8 on CPUs (left to the compiler it came out as scalar code, twice as
-   slow), 1 elsewhere and in the backward pass. */
+   lens: fx, fy, cx, cy, then the ranges of x/z and of y/z to which the point of the projection's Jacobian is clamped.
+   GW Gaussians at once, in the lanes of vectors: 8 on CPUs (scalar code takes twice the time there, as the compiler
+   does not vectorise it), 1 elsewhere and in the backward pass. */
 #ifndef GW
 #define GW 1
 #endif
@@ -36,9 +36,9 @@ typedef float3 gV;
 inline gV make_gV(gF x, gF y, gF z) { return (float3)(x, y, z); }
 #endif
 
-/* GW consecutive indices from `first` on, the last of n again beyond the end; values at GW places. */
+/* GW consecutive indices from `first` on, limited to n - 1; gather_*: the values at GW indices. */
 #if GW == 8
-/* Vectors on both sides: oclgrind takes wrong lanes for the scalar of min(vector, scalar). */
+/* Both arguments are vectors, because oclgrind computes min(vector, scalar) wrongly. */
 inline gI group_of(int first, int n) { return min((gI)(first) + LANES, (gI)(n - 1)); }
 #define AT(i) values[at.s##i]
 inline gF gather_g(global const float* restrict values, gI at) { return (gF)EACH(AT); }
@@ -73,22 +73,22 @@ inline gV weighted_g(float r0, gV a, float r1, gV b, float r2, gV c) {
 }
 
 typedef struct {
-  gV p;           /* centre in the camera */
+  gV p;           /* centre in the camera frame */
   gV V0, V1, V2;  /* rows of R_camera_own */
-  gV M0, M1, M2;  /* the same with columns times the scales: covariance = M M^T */
+  gV M0, M1, M2;  /* rows of R_camera_own diag(scale): covariance = M M^T */
   gV q;           /* x y z of the unit quaternion */
   gF qw, q_norm;
   gV scale;
-  gF tx, ty;      /* x/z and y/z as the Jacobian takes them */
+  gF tx, ty;      /* x/z and y/z, clamped, for the Jacobian */
   gF u, v;
   gV r0, r1, n;   /* rows of the projected square root, and their cross product */
   gF a, b, c;     /* covariance in the image before dilation [px^2] */
-  gF det0, det;   /* its determinant before and after dilation, as sums of squares: no cancellation for needles */
+  gF det0, det;   /* its determinant before and after dilation, as sums of squares, which avoids cancellation */
   gF opacity;     /* before compensation */
   gF visibility;  /* det0 / det */
 } Projection;
 
-/* rotation: w, then x y z. */
+/* rotation_w, rotation: the quaternion's w and its x, y, z, of any length. */
 inline Projection project_one(gV position, gV log_scale, gF rotation_w, gV rotation, gF logit, float16 pose, float8 lens,
                               float dilation) {
   Projection s;
@@ -128,9 +128,9 @@ inline Projection project_one(gV position, gV log_scale, gF rotation_w, gV rotat
   return s;
 }
 
-/* Slope of the depth over the image, relative to the depth of the centre: the regression of depth on pixel under the
-   projected Gaussian, (covariance + PLANE_DILATION I)^-1 cov(pixel, depth) / depth. For flat Gaussians that is the plane
-   of the disc, for others the ray plane of Zhang et al. 2024. */
+/* Slope of the depth over the image, relative to the depth of the centre: the linear regression of depth on the pixel
+   position under the projected Gaussian, (covariance + PLANE_DILATION I)^-1 cov(pixel, depth) / depth. For flat
+   Gaussians that is the plane of the disc, for others the ray plane of Zhang et al. 2024. */
 typedef struct {
   gF numerator_u, numerator_v, det;
   gF u, v; /* [1/px] */

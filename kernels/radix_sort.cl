@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// One pass of a stable radix sort of indices by 32-bit keys. Chunks are contiguous runs of the input, a work-item each;
-// a stable sort has one right answer, so the number of chunks changes the speed and nothing else.
+// One pass of a stable radix sort of indices by 32-bit keys. Chunks are contiguous parts of the input, one per
+// work-item. The result of a stable sort is unique, so the number of chunks affects only the speed.
 
 // `first` != 0: the input order is 0, 1, 2, ... and is not read.
 static inline uint radix_index(__global const uint* restrict order, uint i, int first) {
@@ -18,7 +18,7 @@ __kernel void radix_histogram(__global const uint* restrict keys, __global const
   for (uint i = c * chunk; i < end; ++i) ++mine[(keys[radix_index(order, i, first)] >> shift) & (RADIX_SIZE - 1)];
 }
 
-// A work-item a digit: where each chunk starts among the keys of this digit, and how many there are.
+// One work-item per digit: replaces each chunk's count by its start among the keys of this digit; totals: their number.
 __kernel void radix_chunk_offsets(__global uint* restrict counts, __global uint* restrict totals, uint chunks) {
   const uint d = (uint)get_global_id(0);
   if (d >= RADIX_SIZE) return;
@@ -31,7 +31,7 @@ __kernel void radix_chunk_offsets(__global uint* restrict counts, __global uint*
   totals[d] = sum;
 }
 
-// One work-item: totals become starts.
+// A single work-item: replaces the totals by their exclusive prefix sums.
 __kernel void radix_digit_offsets(__global uint* restrict totals) {
   if (get_global_id(0) != 0) return;
   uint sum = 0;
@@ -42,7 +42,7 @@ __kernel void radix_digit_offsets(__global uint* restrict totals) {
   }
 }
 
-// A chunk's row of counts becomes its running write position within each digit: no private table, nothing to spill.
+// Uses a chunk's row of counts as its write positions within each digit, which needs no private table.
 __kernel void radix_scatter(__global const uint* restrict keys, __global const uint* restrict order,
                             __global uint* restrict counts, __global const uint* restrict totals,
                             __global uint* restrict out, uint n, uint chunk, uint chunks, uint shift, int first) {

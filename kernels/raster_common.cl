@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   Shared by the rasteriser's kernels: the vector of pixels fV (VW = 16: a block of 4 x 4; or 1), exp2.
-   A plain a * b + c, never mad(): PoCL fuses only the former. */
+   Shared by the rasteriser's kernels: the vector of pixels fV (VW = 16: a block of 4 x 4; or VW = 1), exp2.
+   Products are added as a * b + c, never by mad(), because PoCL fuses only the former. */
 #ifndef VW
 #define VW 1
 #endif
@@ -24,8 +24,9 @@ typedef int iV;
 #define KEEP(v, m) asfV(asiV(v) & (m))
 #define CHOOSE(no, yes, m) asfV((asiV(no) & ~(m)) | (asiV(yes) & (m)))
 
-/* 2^x for -16 < x < 16, relative error below 3e-6: the magic number rounds x to an integer, a polynomial takes the rest.
-   Garbage, not a trap, outside. Breaks under -cl-fast-relaxed-math. */
+/* 2^x for -16 < x < 16, relative error below 3e-6: adding 1.5 * 2^23 rounds x to an integer, a polynomial computes 2 to
+   the power of the remainder. Outside that range the result is undefined, without a trap. Not valid under
+   -cl-fast-relaxed-math. */
 inline fV exp2_poly(fV x) {
   const fV z = x + 12582912.0f;
   const fV f = x - (z - 12582912.0f);
@@ -33,17 +34,19 @@ inline fV exp2_poly(fV x) {
   return asfV(asiV(p) + (asiV(z) << 23));
 }
 
-/* What the compositing kernels read of a Gaussian, four float4, one cache line:
-   0: u, v [px], A, B;   1: C, log2 opacity, depth of the centre [m], half height [px];
-   2: slope_u, slope_v [1/px], how steeply depth changes at the centre [m/px], -;
-   3: red, green, blue, - (written by shade.cl, with colour only)
+/* A splat: the data of a projected Gaussian for the compositing kernels, four float4, one cache line:
+   0: u, v [px], A, B
+   1: C, log2 opacity, depth of the centre [m], half height [px]
+   2: slope_u, slope_v [1/px], steepness (gradient of depth at the centre) [m/px], unused
+   3: red, green, blue, unused (written by shade.cl, with colour only)
    log2 alpha(dx, dy) = log2 opacity - (A dx^2 + B dx dy + C dy^2), (dx, dy) = pixel - (u, v)
    depth(dx, dy) = depth / max(1 - slope_u dx - slope_v dy, MIN_PLANE_RATIO) */
 #define SPLAT_VECTORS 4
 
-/* Sums that the backward pass keeps for a pair, in a slot of SLOT_FLOATS: with h = dL/d ln alpha of a pixel,
-   0..5: h (1, dx, dy, dx^2, dx dy, dy^2); with depth 4 more: dL/d(depth of the centre) through the ratio, and
-   t (1, dx, dy), t = dL/d(ratio) with its sign turned; with colour 3 more: dL/d(r, g, b). */
+/* Sums over pixels that the backward pass stores for a pair, in a slot of SLOT_FLOATS:
+   0..5: h (1, dx, dy, dx^2, dx dy, dy^2), h = dL/d ln alpha of a pixel
+   with depth 4 more: dL/d(depth of the centre) with the ratio fixed, and t (1, dx, dy), t = -dL/d(ratio)
+   with colour 3 more: dL/d(r, g, b) */
 #ifndef WITH_COLOR
 #define WITH_COLOR 0
 #endif
@@ -61,20 +64,22 @@ inline fV exp2_poly(fV x) {
 #define SLOT_FLOATS (6 + 4 * WITH_DEPTH + 3 * WITH_COLOR)
 
 #if VW == 16
-/* Blocks of 4 x 4 pixels, 16 a tile, row by row, as are the pixels of a block in a vector. Against vectors of 16 pixels of
-   a row: a splat of a few pixels touches a third fewer of them, and finished blocks are skipped one by one.
-   Within a block log2 alpha follows from value and gradient at the block's middle and from `bend`, the same for all. */
+/* A tile has 16 blocks of 4 x 4 pixels, row by row; a vector has the pixels of a block, row by row. Compared with
+   vectors of 16 pixels of a row, a splat of a few pixels touches a third fewer of them, and finished blocks can be
+   skipped separately. Within a block log2 alpha follows from its value and gradient at the block's middle and from the
+   quadratic part `bend`, which is the same for all blocks. */
 #define BLOCK 4
 #define BLOCKS ((TILE_WIDTH / BLOCK) * (TILE_HEIGHT / BLOCK))
-/* From the middle of a block to its pixels, and from a tile's first pixel to the middles of its blocks. */
+/* Offsets from the middle of a block to its pixels, and from a tile's first pixel to the middles of its blocks. */
 #define BLOCK_X ((float16)(-1.5f, -0.5f, 0.5f, 1.5f, -1.5f, -0.5f, 0.5f, 1.5f, -1.5f, -0.5f, 0.5f, 1.5f, -1.5f, -0.5f, 0.5f, 1.5f))
 #define BLOCK_Y ((float16)(-1.5f, -1.5f, -1.5f, -1.5f, -0.5f, -0.5f, -0.5f, -0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 1.5f))
 #define MIDDLE_X ((float16)(1.5f, 5.5f, 9.5f, 13.5f, 1.5f, 5.5f, 9.5f, 13.5f, 1.5f, 5.5f, 9.5f, 13.5f, 1.5f, 5.5f, 9.5f, 13.5f))
 #define MIDDLE_Y ((float16)(1.5f, 1.5f, 1.5f, 1.5f, 5.5f, 5.5f, 5.5f, 5.5f, 9.5f, 9.5f, 9.5f, 9.5f, 13.5f, 13.5f, 13.5f, 13.5f))
 #define BLOCK_BITS ((int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768))
 
-/* Splats that a tile copies beside each other before it works on them: their places in memory are random, and one by one,
-   between unpredictable branches, a third of the time went into waiting for them. */
+/* Number of splats that a tile copies into consecutive memory before it processes them. Their places in memory are
+   random: reading them one at a time between unpredictable branches would spend a third of the time waiting for
+   memory. */
 #define TILE_BATCH 32
 inline void load_batch(float4* batch, int count, global const uint* restrict list, global const float4* restrict splats) {
   for (int k = 0; k < count; ++k) {
@@ -92,7 +97,7 @@ inline void load_batch(float4* batch, int count, global const uint* restrict lis
 
 inline int2 block_corner(int block) { return (int2)(block % 4 * BLOCK, block / 4 * BLOCK); }
 inline int last_block(uint blocks) { return 31 - (int)clz(blocks); }
-/* Mask of the pixels of the block with first pixel `at` that lie in the image. */
+/* Mask of the pixels that lie in the image, for the block with first pixel `at`. */
 inline iV inside_image(int2 at, int4 size) {
   return MASK((BLOCK_X + ((float)at.x + 1.5f) < (float)size.x) & (BLOCK_Y + ((float)at.y + 1.5f) < (float)size.y));
 }
@@ -103,7 +108,7 @@ inline float largest(fV v) {
   return max(v2.x, v2.y);
 }
 
-/* At the middles of the blocks: log2 alpha, minus its gradient, ratio of depths. */
+/* Values of a splat at the middles of the blocks: log2 alpha, its negative gradient, divisor of depth. */
 typedef struct {
   float e[BLOCKS], gx[BLOCKS], gy[BLOCKS];
 #if WITH_DEPTH
@@ -111,8 +116,8 @@ typedef struct {
 #endif
 } BlockMiddles;
 
-/* Bits of the blocks where the splat may reach MIN_ALPHA: log2 alpha is concave, so it is nowhere above its tangent.
-   offset: from the splat's centre to the tile's first pixel. */
+/* Computes *m and returns the bits of the blocks where the splat may reach MIN_ALPHA: log2 alpha is concave, so it does
+   not exceed its tangent at the block's middle. offset: from the splat's centre to the tile's first pixel. */
 inline uint reach_blocks(BlockMiddles* m, float2 offset, float A, float B, float C, float log2_opacity, float2 slope) {
   const fV dx = MIDDLE_X + offset.x, dy = MIDDLE_Y + offset.y;
   const fV ax = A * dx, cy = C * dy, q = B * dy + ax;
@@ -133,7 +138,7 @@ inline uint reach_blocks(BlockMiddles* m, float2 offset, float A, float B, float
 inline fV block_bend(float A, float B, float C) {
   return BLOCK_X * (A * BLOCK_X + B * BLOCK_Y) + C * (BLOCK_Y * BLOCK_Y);
 }
-/* tilt: of the ratio within a block. */
+/* tilt: change of the divisor within a block. */
 inline fV block_ratio(const BlockMiddles* m, int block, fV tilt) {
 #if WITH_DEPTH
   return m->ratio[block] - tilt;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 // Exclusive prefix sum in three steps: sums of chunks, scan of the sums, scan of each chunk from its start.
-// One work-item a chunk: on a CPU a long chunk runs at memory speed.
+// One work-item per chunk: on a CPU a long chunk is limited by memory bandwidth only.
 
 __kernel void scan_chunk_sums(__global const uint* restrict values, __global uint* restrict sums, uint n, uint chunk) {
   const uint c = (uint)get_global_id(0);
@@ -13,7 +13,7 @@ __kernel void scan_chunk_sums(__global const uint* restrict values, __global uin
   sums[c] = sum;
 }
 
-// One work-item; the chunk count is small.
+// A single work-item, as there are few chunks.
 __kernel void scan_sums(__global uint* restrict sums, __global uint* restrict out, uint chunks, uint n) {
   if (get_global_id(0) != 0) return;
   uint sum = 0;

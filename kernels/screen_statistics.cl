@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
 
-   What densification needs to know, summed over steps, an item a Gaussian: how strongly the image pulls its projected
-   centre, and how often it was in view. scale: half the longer side of the image, from 1/px to normalised units. */
+   Statistics for densification, summed over training steps, one item per Gaussian: the norm of the loss gradient by its
+   projected centre (pulls), and the number of steps in which it was drawn (seen). scale: half the longer side of the
+   image, converts 1/px to normalised units. */
 __kernel void screen_statistics(int n, const __global uint* restrict counts,
                                 const __global float* restrict screen_gradients, float scale,
                                 __global float* restrict pulls, __global float* restrict seen) {

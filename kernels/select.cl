@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   For images of which only some pixels are wanted: the Gaussians that may touch a block of 4 x 4 pixels with a wanted one,
-   and those pixels out of the images. Comes after projection.cl. */
+   For images of which only some pixels are wanted: selects the Gaussians that may reach a block of 4 x 4 pixels with a
+   wanted pixel, and copies the wanted pixels from the images. Compiled after projection.cl. */
 
-/* Of an opaque Gaussian, in standard deviations, with a little more for rounding: sqrt(2 ln 255) = 3.3290 and the margin
-   of the tile test. */
+/* Radius of an opaque Gaussian in standard deviations: sqrt(2 ln 255) = 3.3290, enlarged for rounding and for the
+   margin of the tile test. */
 #define MOST_REACH 3.3302f
 #define PIXEL_MARGIN 0.01f
 
-/* One item `chunk` Gaussians: those kept, in order, from kept[item * chunk] on. The test takes each as a ball of its longest
-   axis, which costs a fifth of its projection. wanted_sums: blocks with a wanted pixel above and left of a corner of
-   blocks, `blocks_wide` + 1 a row, so that four of them say whether a rectangle holds one. */
+/* One item for `chunk` Gaussians: writes the indices of those kept, in order, from kept[item * chunk] on. The test
+   replaces each Gaussian by a ball with its longest axis, which takes a fifth of the time of its projection.
+   wanted_sums: two-dimensional prefix sums of the blocks with a wanted pixel, `blocks_wide` + 1 per row, so that four
+   of them give the number in a rectangle. */
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void keep_near_wanted(
     int n, int chunk, global const float* restrict positions, global const float* restrict log_scales, float16 pose,
     float8 lens, int4 size, float dilation, int blocks_wide, global const uint* restrict wanted_sums,
@@ -53,7 +54,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void keep_near_wanted(
   kept_counts[item] = count;
 }
 
-/* The items' lists one after another. */
+/* Concatenates the items' lists. */
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void join_kept(int chunk, global const uint* restrict kept,
                                                                      global const uint* restrict kept_counts,
                                                                      global const uint* restrict starts,
@@ -62,7 +63,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void join_kept(int chunk, 
   for (uint i = 0; i < kept_counts[item]; ++i) selected[starts[item] + i] = kept[(uint)(item * chunk) + i];
 }
 
-/* One item a wanted pixel: its values out of an image of `planes` planes. */
+/* One item per wanted pixel: copies its values from an image of `planes` planes. */
 kernel void pick_pixels(int count, global const int* restrict places, int planes, int pixels,
                         global const float* restrict image, global float* restrict picked) {
   const int i = get_global_id(0);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
    Real spherical harmonics up to degree 3, order and signs as in 3DGS maps (m from -l to l, Condon-Shortley phase).
-   Built with SH_DEGREE, so that every index is known to the compiler: the arrays stay in registers on every device. */
+   Built with SH_DEGREE as a constant, so that the compiler knows every index and keeps the arrays in registers. */
 #define SH_USED ((SH_DEGREE + 1) * (SH_DEGREE + 1))
 #define SH_0 0.28209479f
 #define SH_1 0.48860251f

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   One item a Gaussian: colour = max(0, 0.5 + sum_k basis_k(direction) sh[k]). `stored`: coefficients a channel in sh.
-   selected: as in project.cl. */
+   One item per Gaussian: colour = max(0, 0.5 + sum_k basis_k(direction) sh[k]). `stored`: coefficients per channel in
+   sh. selected: as in project.cl. */
 kernel void shade(int n, int select, global const uint* restrict selected, global const float* restrict positions,
                   global const float* restrict sh, int stored, float16 pose, global const uint* restrict counts,
                   global float4* restrict splats) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   One item a Gaussian: dL/dcolour to SH, and through the direction to position and pose. Runs after project_backward,
-   to whose results it adds. */
+   One item per Gaussian: propagates dL/dcolour to the SH coefficients, and through the viewing direction to position
+   and pose. Runs after project_backward and adds to its results. */
 kernel void shade_backward(int n, global const float* restrict positions, global const float* restrict sh, int stored,
                            float16 pose, global const uint* restrict counts,
                            global const float4* restrict splats, global const float4* restrict color_gradients,

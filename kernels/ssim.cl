@@ -3,15 +3,16 @@
 
    Structural similarity of two images (Wang, Bovik, Sheikh, Simoncelli 2004) with an 11 x 11 Gaussian window of
    sigma 1.5, centred on the pixel, and its gradient. The window is separable: each kernel is one direction.
-   At the border the window is cut and its weights are scaled to sum to one (an image is not continued by black).
+   At the border the window is cut and its weights are scaled to sum to one (the image is not padded with black).
 
    Images are planar [3 x height x width]. Maps between passes are padded: rows of `stride` floats with PAD zeros on the
-   left and at least PAD on the right, so that the horizontal pass needs no bounds. A work-item makes 8 pixels of a row.
+   left and at least PAD on the right, so that the horizontal pass needs no bounds check. A work-item computes 8 pixels
+   of a row.
    Range: (blocks * height, 3) with blocks = ceil(width / 8). */
 
 #define RADIUS 5
 #define PAD 8
-/* exp(-k^2 / (2 * 1.5^2)), not normalised: the sum of the weights in the image divides every mean. */
+/* exp(-k^2 / (2 * 1.5^2)), not normalised: every mean is divided by the sum of the weights in the image. */
 __constant float WINDOW[2 * RADIUS + 1] = {0.00386592014f, 0.0285655007f, 0.135335283f, 0.411112291f,
                                            0.800737403f,   1.0f,          0.800737403f, 0.411112291f,
                                            0.135335283f,   0.0285655007f, 0.00386592014f};
@@ -48,7 +49,7 @@ static inline float8 inside(int x, int width) {
 static inline float8 weight_along_row(int x, int width) {
   float8 sum = (float8)(0.0f);
   for (int k = -RADIUS; k <= RADIUS; ++k) sum += WINDOW[k + RADIUS] * inside(x + k, width);
-  return fmax(sum, (float8)(1.0e-6f)); /* lanes beyond the row may see nothing */
+  return fmax(sum, (float8)(1.0e-6f)); /* the sum may be 0 for lanes beyond the row */
 }
 
 static inline float weight_along_column(int y, int height) {
@@ -97,8 +98,9 @@ __kernel void ssim_moments_vertical(const __global float* restrict rendered, con
   vstore8(sxy * scale, 0, out + 4 * map);
 }
 
-/* moments -> values [3 x height x blocks]: sums of SSIM over 8 pixels; partials [3 x 3 x height x stride]: dSSIM by the
-   mean of x, of x^2 and of x y, each divided by the pixel's sum of weights, ready for the transposed window. */
+/* moments -> values [3 x height x blocks]: sums of SSIM over 8 pixels; partials [3 x 3 x height x stride]: derivatives
+   of SSIM by the means of x, x^2 and x y, each divided by the pixel's sum of weights, as input of the transposed
+   window. */
 __kernel void ssim_horizontal(const __global float* restrict moments, __global float* restrict values,
                               __global float* restrict partials, int width, int height, int stride) {
   const int blocks = (width + 7) / 8;
@@ -141,7 +143,7 @@ __kernel void ssim_horizontal(const __global float* restrict moments, __global f
   vstore8(weight * 2.0f * a * inverse, 0, out + 2 * map);
 }
 
-/* partials -> spread [3 x 3 x height x stride]: the transposed window along the columns. */
+/* partials -> spread [3 x 3 x height x stride]: applies the transposed window along the columns. */
 __kernel void ssim_spread_vertical(const __global float* restrict partials, __global float* restrict spread, int width,
                                    int height, int stride) {
   const int blocks = (width + 7) / 8;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
 
-   What holds discs on the surface they were made from, an item a Gaussian; adds to the gradients of the image terms.
+   Regularisation that keeps discs on the surface they were made from, one item per Gaussian; adds to the gradients of
+   the image terms.
    anchors [N x 8]: a point of the surface, 1 / size^2 there, the unit normal, 0 (no anchor: all 0).
      place_weight   * (normal . (position - point))^2 / size^2
-     normal_weight  * (1 - (normal . axis)^2), axis: the third of the Gaussian's own
-     flatten_weight * exp(log_scale_2 - (log_scale_0 + log_scale_1) / 2), thickness over size */
+     normal_weight  * (1 - (normal . axis)^2), axis: the Gaussian's third axis
+     flatten_weight * exp(log_scale_2 - (log_scale_0 + log_scale_1) / 2), thickness / size */
 __kernel void surface_terms(int n, const __global float* restrict positions, const __global float* restrict log_scales,
                             const __global float* restrict rotations, const __global float* restrict anchors,
                             float place_weight, float normal_weight, float flatten_weight,

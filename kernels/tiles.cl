@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0
    Copyright 2026 The odosplat authors
-   Pairs of (Gaussian, tile): comes after projection.cl, whose vectors of GW Gaussians it uses. A pair's slot is its place in order of Gaussians, then tiles: there its gradients are kept.
+   Pairs of (Gaussian, tile). Compiled after projection.cl, whose vectors of GW Gaussians it uses. A pair's slot, which
+   stores its gradients, is its place in the order of Gaussians, then of tiles.
    Result, for every tile: list[p], p in tile_start[tile] .. tile_start[tile + 1]: Gaussians from near to far, and
-   slot[p]. All of it is integers in an order given by the data, so it does not depend on threads or chunks.
-   Tile test: the span of the ellipse over a row of tiles (Hanson et al. 2024). count_tiles and emit_pairs must find the
-   same tiles to the bit: nothing in row_range and row_span leaves the compiler a choice of rounding (explicit fma, no other
+   slot[p]. All results are integers in an order given by the data, so they do not depend on threads or chunks.
+   Tile test: the span of the ellipse over a row of tiles (Hanson et al. 2024). count_tiles and emit_pairs must find
+   exactly the same tiles, so row_range and row_span leave the compiler no choice of rounding (explicit fma, no other
    a * b + c). */
 
-/* The ellipses of GW Gaussians: centre, half sizes; x at height y above the centre: shear y +- sqrt(w0 - w1 y^2), with the
-   rightmost point at y = tilt. In memory field by field, GW values each. */
+/* The ellipses of GW Gaussians: centre, half sizes; at offset y from the centre the ellipse spans
+   x = shear y +- sqrt(w0 - w1 y^2), and its rightmost point is at y = tilt. In memory field by field, GW values
+   each. */
 typedef struct {
   gF u, v, half_x, half_y, shear, w0, w1, tilt;
 } Ellipse;
@@ -47,13 +49,14 @@ inline gI ceil_g(gF x) {
   return t - GMASK(x > CONVERT_GF(t));
 }
 
-/* Rows of pixels that each ellipse reaches: the first, and the last (before it: none). */
+/* Rows of pixels that each ellipse reaches: returns the first; *last is smaller if there are none. */
 inline gI row_range(const Ellipse* e, int4 size, gI* last) {
   *last = min(floor_g(min(e->v + e->half_y, (float)size.y)), size.y - 1);
   return max(ceil_g(max(e->v - e->half_y, -1.0f)), 0);
 }
 
-/* Pixels that each one holds in its row of tiles `row`: the first column with a centre inside, and the last. */
+/* Columns of pixels whose centres each ellipse contains within its row of tiles `row`: returns the first and sets
+   *last. */
 inline gI row_span(const Ellipse* e, gI row, int4 size, gI* last) {
   const gF y0 = CONVERT_GF(row * TILE_HEIGHT) - e->v;
   const gF y1 = CONVERT_GF(min(row * TILE_HEIGHT + (TILE_HEIGHT - 1), size.y - 1)) - e->v;
@@ -65,11 +68,11 @@ inline gI row_span(const Ellipse* e, gI row, int4 size, gI* last) {
   return max(ceil_g(max(left, -1.0f)), 0);
 }
 
-/* Which tiles are made at all: where `sparse`, those with bits in `wanted` (blocks of 4 x 4 pixels, as in composite.cl). */
+/* Tiles that are rendered: if `sparse`, those with bits in `wanted` (blocks of 4 x 4 pixels, as in composite.cl). */
 #define WANTED_ARGUMENTS int sparse, global const uint *restrict wanted
 #define WANTED sparse, wanted
 
-/* Does a Gaussian with pixels x0..x1, y0..y1 of a tile reach a wanted block of it? */
+/* Whether a Gaussian with pixels x0..x1, y0..y1 reaches a wanted block of the tile. */
 inline int is_wanted(int column, int row, int x0, int x1, int y0, int y1, int4 size, WANTED_ARGUMENTS) {
   if (!sparse) return 1;
   const int tile_x = column * TILE_WIDTH, tile_y = row * TILE_HEIGHT;
@@ -80,7 +83,7 @@ inline int is_wanted(int column, int row, int x0, int x1, int y0, int y1, int4 s
   return (columns * rows & wanted[row * size.z + column]) != 0;
 }
 
-/* Tiles that each of the ellipses reaches, 0 for those not drawn. */
+/* Number of tiles that each of the ellipses reaches, 0 for those not drawn. */
 inline void count_tiles(const Ellipse* box, const int* drawn, int4 size, WANTED_ARGUMENTS, uint* count) {
   gI bottom;
   const gI top = row_range(box, size, &bottom);
@@ -113,7 +116,7 @@ inline void count_tiles(const Ellipse* box, const int* drawn, int4 size, WANTED_
   }
 }
 
-/* One item GW Gaussians: their tiles into the slots offsets[g] .. offsets[g + 1]. */
+/* One item for GW Gaussians: writes their tiles to the slots offsets[g] .. offsets[g + 1]. */
 kernel void emit_pairs(int n, global const float* restrict boxes, global const uint* restrict offsets, int4 size,
                        WANTED_ARGUMENTS, global uint* restrict slot_tile) {
   const int item = get_global_id(0), g = item * GW;
@@ -150,9 +153,9 @@ kernel void emit_pairs(int n, global const float* restrict boxes, global const u
   }
 }
 
-/* For CPUs, few long chunks: a stable counting sort by tile, one item a chunk of Gaussians consecutive in depth. Their pairs
-   lie at random places in memory: first the places of BIN_BATCH of them are read, then the first tile of each, so that
-   the reads do not wait for each other. */
+/* For CPUs, few long chunks: a stable counting sort by tile, one item per chunk of Gaussians consecutive in depth.
+   Their pairs are at random places in memory: the places of BIN_BATCH Gaussians are read first, then the first tile of
+   each, so that the reads can overlap. */
 #define BIN_BATCH 16
 typedef struct {
   uint g[BIN_BATCH], begin[BIN_BATCH], end[BIN_BATCH], tile[BIN_BATCH];
@@ -228,8 +231,8 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void bin_scatter(
   }
 }
 
-/* For GPUs, many items: the pairs in order of depth, a stable radix sort of their tiles (`sorted`: place by rank), and
-   the lists from that. */
+/* For GPUs, many items: the pairs are put in order of depth, their tiles are sorted by a stable radix sort (`sorted`:
+   place by rank), and the lists follow from that. */
 kernel void gather_counts(int n, global const uint* restrict order, global const uint* restrict counts,
                           global uint* restrict depth_counts) {
   const int r = get_global_id(0);

@@ -6,8 +6,8 @@
 
 namespace odosplat::test {
 
-/// Where the tests find what is not compiled into them. Paths of the build are compiled into locations.cpp alone, so
-/// that a compiler cache serves every checkout.
+/// Paths that the tests need at run time. Those of the build are compiled only into locations.cpp, so that a compiler
+/// cache can be shared by several checkouts.
 std::string source_dir();   // the repository
 std::string shared_data();  // folder of public data sets beside the repository; may be missing
 std::string program();      // odosplat, of the same build

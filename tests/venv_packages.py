@@ -5,13 +5,14 @@ import os
 import subprocess
 import sys
 
-SKIPPED = 77  # the exit status of a comparison whose other side is out of reach
+SKIPPED = 77  # exit status if the other program cannot be installed
 
 
 def python_with(folder, packages, seconds=300):
-    """The interpreter of the environment `folder`, made if missing, with the packages ("evo==1.31.1") in it.
+    """Returns the interpreter of the virtual environment `folder`, in which the packages ("evo==1.31.1") are installed.
 
-    Where they cannot be installed the script ends with SKIPPED, and says so.
+    The environment is created if missing. If the packages cannot be installed, the script prints this and exits with
+    SKIPPED.
     """
     python = os.path.join(folder, "bin", "python")
     try:

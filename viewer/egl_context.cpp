@@ -79,8 +79,8 @@ EglContext::~EglContext() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroySurface(display_, surface_);
   eglDestroyContext(display_, context_);
-  // The display stays initialised for the rest of the process: eglTerminate does not count its users, and Mesa loses a
-  // little memory each time it unloads its driver.
+  // The display stays initialised until the process ends: eglTerminate does not count users, and Mesa leaks a little
+  // memory each time its driver is unloaded.
   eglReleaseThread();
 }
 
@@ -105,7 +105,7 @@ bool EglContext::try_display(void* display, const std::string& platform, std::st
   const std::array<EGLint, 7> core{
       EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-  // VTK draws into frame buffers of its own; the surface only has to be there.
+  // VTK draws into its own frame buffers; the surface only has to exist.
   const std::array<EGLint, 5> small{EGL_WIDTH, 16, EGL_HEIGHT, 16, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint found = 0;

@@ -6,10 +6,10 @@
 
 namespace odosplat {
 
-/// An OpenGL 3.2 core context without any window or X server, current in the thread that made it until it is destroyed.
-/// Looked for in this order: a GPU among EGL's devices (EGL_EXT_platform_device), Mesa's surfaceless platform
-/// (software, EGL_MESA_platform_surfaceless), any other EGL device. Several may live at once, also in several threads.
-/// Throws std::runtime_error that names each way tried and why it failed.
+/// An OpenGL 3.2 core context without a window or X server, current in the thread that created it until it is
+/// destroyed. Tried in this order: a GPU among EGL's devices (EGL_EXT_platform_device), Mesa's surfaceless platform
+/// (software, EGL_MESA_platform_surfaceless), any other EGL device. Several may exist at a time, also in several
+/// threads. Throws std::runtime_error that names each attempt and why it failed.
 class EglContext {
  public:
   EglContext();
@@ -18,11 +18,11 @@ class EglContext {
   EglContext& operator=(const EglContext&) = delete;
 
   void make_current();
-  /// Which way worked: "EGL device 0", "Mesa surfaceless".
+  /// The platform that was used: "EGL device 0", "Mesa surfaceless".
   const std::string& platform() const { return platform_; }
 
  private:
-  // EGL's handles, which are pointers; its header drags in X's.
+  // EGL's handles as plain pointers, because EGL's header includes those of X.
   bool try_display(void* display, const std::string& platform, std::string& faults);
 
   void* display_ = nullptr;

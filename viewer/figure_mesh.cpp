@@ -100,7 +100,7 @@ void FigureMesh::add_dashed_path(const std::vector<Eigen::Vector3d>& points, dou
         const Eigen::Vector3d a = points[i] + step * (begin / length);
         const Eigen::Vector3d b = points[i] + step * (end / length);
         add_tube(a, b, radius, color, color);
-        add_ball(b, radius, color);  // closes the joints of a path of many short pieces
+        add_ball(b, radius, color);  // fills the gaps at the joints of short pieces
       }
       begin = end;
     }

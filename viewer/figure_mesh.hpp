@@ -12,30 +12,30 @@
 
 namespace odosplat {
 
-/// Coloured triangles, the one thing that the viewer hands to OpenGL: discs, tubes and balls of any size come out the
-/// same on every device, which GL's own points and wide lines do not. Positions [m] in the map's world frame minus
-/// `origin`, which keeps maps far from zero exact in 32 bits. No lighting: colours arrive on the page as they are.
+/// Coloured triangles, the only primitive that the viewer passes to OpenGL: discs, tubes and balls of any size look the
+/// same on every device, unlike OpenGL's points and wide lines. Positions [m] in the map's world frame minus `origin`,
+/// so that maps far from zero keep their precision in 32 bits. No lighting: colours are drawn unchanged.
 class FigureMesh {
  public:
   FigureMesh() = default;
   explicit FigureMesh(Eigen::Vector3d origin) : origin_(std::move(origin)) {}
 
-  /// Regular polygon of `sides` >= 3 around `center` (world), its front to where `normal` (unit length) points.
+  /// Regular polygon with `sides` >= 3 around `center` (world); its front faces along `normal` (unit length).
   void add_disc(const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double radius, int sides,
                 const Rgb& color);
-  /// Six-sided tube from a to b (world), its colour running from color_a to color_b; nothing where a = b.
+  /// Six-sided tube from a to b (world), its colour interpolated from color_a to color_b; nothing if a = b.
   void add_tube(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius, const Rgb& color_a,
                 const Rgb& color_b);
   void add_ball(const Eigen::Vector3d& center, double radius, const Rgb& color);
-  /// Tubes along the points with balls where they meet; colors is as long as points, or one colour for all.
+  /// Tubes along the points, with balls at the joints; colors has one colour for each point, or a single one for all.
   void add_path(const std::vector<Eigen::Vector3d>& points, double radius, const std::vector<Rgb>& colors);
-  /// Dashes and gaps of `dash` [m] along the points.
+  /// Dashes and gaps of length `dash` [m] along the points.
   void add_dashed_path(const std::vector<Eigen::Vector3d>& points, double radius, const Rgb& color, double dash);
 
   const Eigen::Vector3d& origin() const { return origin_; }
   const std::vector<Eigen::Vector3f>& vertices() const { return vertices_; }
   const std::vector<Rgb>& colors() const { return colors_; }
-  /// Indices of vertices, counter-clockwise seen from the front.
+  /// Vertex indices, counter-clockwise seen from the front.
   const std::vector<std::array<std::int32_t, 3>>& triangles() const { return triangles_; }
   bool empty() const { return triangles_.empty(); }
 

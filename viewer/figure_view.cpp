@@ -33,7 +33,7 @@ double spread_along(const std::vector<Eigen::Vector2d>& points, const Eigen::Vec
   return squares / n - (sum / n) * (sum / n);
 }
 
-/// focal, cx and cy that put the points (x, y on the picture's plane) into the middle of the picture.
+/// Sets focal, cx and cy so that the points (x, y in the picture's plane) fill the picture, centred, within the margin.
 void fit(const std::vector<Eigen::Vector2d>& points, double margin, FigureView& view) {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::max());
   Eigen::Vector2d high = -low;
@@ -49,7 +49,7 @@ void fit(const std::vector<Eigen::Vector2d>& points, double margin, FigureView& 
   view.cy = 0.5 * (view.size.height - 1) - view.focal * 0.5 * (low.y() + high.y());
 }
 
-/// The points, or what stands for them where there are none or all are one.
+/// The finite points; if there are none or all coincide, points at 0.5 m from the origin or from that point are added.
 std::vector<Eigen::Vector3d> something_to_see(const std::vector<Eigen::Vector3d>& points) {
   Eigen::AlignedBox3d box;
   std::vector<Eigen::Vector3d> seen;
@@ -118,7 +118,8 @@ PlanAxes plan_axes(const Eigen::Vector3d& up, const std::vector<Eigen::Vector3f>
     if (normals.size() != points.size()) continue;
     const Eigen::Vector3d n = normals[i].cast<double>();
     const std::complex<double> level(n.dot(a), n.dot(b));
-    // The fourth power makes the four directions of a room's walls one; floors and ceilings weigh nothing.
+    // The fourth power maps the four horizontal directions of a room's walls to one angle; normals of floors and
+    // ceilings have no horizontal part and contribute nothing.
     if (n.allFinite()) agreed += level * level * level * level;
   }
   double angle = 0.0;
@@ -166,7 +167,7 @@ FigureView view_from_corner(const PlanAxes& axes, const std::vector<Eigen::Vecto
   for (const auto& p : seen) radius = std::max(radius, (p - center).norm());
   FigureView view;
   view.size = size;
-  // Far enough for a calm perspective, near enough to see one.
+  // This distance gives a moderate perspective.
   view.T_world_view = SE3(R_world_view, center - 3.0 * radius * z);
   std::vector<Eigen::Vector2d> flat;
   const SE3 T_view_world = view.T_world_view.inverse();

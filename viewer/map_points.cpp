@@ -45,7 +45,7 @@ void drop_broken(MapPoints& map) {
   keep(map.radii, kept);
 }
 
-/// At most a hundred of the cameras, evenly: to know on which side of a wall they were.
+/// Positions of about 100 cameras, evenly spaced; they determine the visible side of each surface.
 std::vector<Eigen::Vector3d> some_positions(const Trajectory& cameras) {
   std::vector<Eigen::Vector3d> positions;
   const std::size_t stride = cameras.size() / 100 + 1;
@@ -81,7 +81,7 @@ double find_cut(const MapScenery& scenery, const std::vector<Eigen::Vector3d>& p
   return top + 0.25 * std::max(top - floor, 0.0);
 }
 
-/// Every so many-th point inside the box that holds 98 % of the points along each axis, below the cut.
+/// A subset of the points below the cut, within the 1 % to 99 % quantiles along each axis.
 void find_extent(MapScenery& scenery) {
   const std::array<Eigen::Vector3d, 3> directions{scenery.axes.right, scenery.axes.forward, scenery.axes.up};
   const PointCloud& cloud = scenery.map.cloud;
@@ -118,7 +118,7 @@ Rgb point_color(const MapScenery& scenery, std::size_t i, double fade) {
   if (cloud.has_colors()) {
     color = cloud.colors[i];
   } else if (cloud.has_normals()) {
-    // Light from above and a little from the side tells floor, tops and the two kinds of wall apart.
+    // Shading by a light from above and slightly from the side, so that floors and walls of both directions differ.
     const Eigen::Vector3d light =
         (2.0 * scenery.axes.up + scenery.axes.right + 0.5 * scenery.axes.forward).normalized();
     color.setConstant(static_cast<float>(0.4 + 0.45 * std::abs(light.dot(cloud.normals[i].cast<double>()))));
@@ -151,7 +151,7 @@ MapScenery prepare_map(MapPoints map, const Trajectory& cameras, const Eigen::Ve
   if (scenery.map.radii.empty() && !cloud.points.empty()) {
     scenery.map.radii = mean_neighbor_distances(cloud, 4);
     std::vector<double> spacing(scenery.map.radii.begin(), scenery.map.radii.end());
-    // Stray points are far from all others and would become plates.
+    // Outliers are far from all other points and would become large discs.
     const double largest = 2.0 * share_quantile(spacing, 0.5);
     for (float& radius : scenery.map.radii) radius = static_cast<float>(std::min<double>(0.8 * radius, largest));
   }
@@ -182,7 +182,7 @@ FigureLayer map_layer(const MapScenery& scenery, const FigureView& view, double 
 }
 
 double open_azimuth(const MapScenery& scenery) {
-  constexpr double turn = 0.45;  // [rad] off the walls' directions, so that two of them show
+  constexpr double turn = 0.45;  // [rad] angle to the walls' directions, so that two walls are visible
   double best = turn;
   std::size_t most = 0;
   for (int side = 0; side < 4; ++side) {

@@ -32,9 +32,9 @@
 namespace odosplat {
 namespace {
 
-constexpr int samples = 2;           // a pixel, each way
-constexpr int largest_tile = 4096;   // [samples] each way
-constexpr double near_share = 1e-3;  // of the far plane's distance; 24 bits of depth tell 1e-4 apart even there
+constexpr int samples = 2;           // per pixel, in each direction
+constexpr int largest_tile = 4096;   // [samples] in each direction
+constexpr double near_share = 1e-3;  // of the far plane's distance; 24-bit depth still resolves 1e-4 there
 
 struct DepthRange {
   double near = 0.1;
@@ -62,8 +62,8 @@ DepthRange depth_range(const std::vector<FigureLayer>& layers, const FigureView&
   return range;
 }
 
-/// OpenGL's projection of the part of the view that starts at sample (x0, y0) and is `tile` large, for eye coordinates
-/// x right, y up, z backward.
+/// OpenGL's projection matrix of the part of the view that starts at sample `corner` and has the size `tile`, for eye
+/// coordinates x right, y up, z backward.
 vtkSmartPointer<vtkMatrix4x4> projection(const FigureView& view, cv::Point corner, cv::Size tile, DepthRange range) {
   const double focal = samples * view.focal;
   const double offset_x = 2.0 * (samples * (view.cx + 0.5) - corner.x) / tile.width - 1.0;
@@ -146,15 +146,16 @@ vtkSmartPointer<vtkRenderer> to_renderer(const FigureLayer& layer, int number, c
   return renderer;
 }
 
-/// Takes VTK's messages about the window instead of letting it print them. Debian's GLEW asks for GLX and says that it
-/// could not start, though it has found every function: that one is dropped, the first of any other kind kept.
+/// Collects VTK's messages about the window, which VTK would otherwise print. Debian's GLEW, which looks for GLX,
+/// reports that it could not be initialised although it has found all functions: that message is ignored. Of the others
+/// the first is kept.
 void keep_fault(vtkObject*, unsigned long, void* fault, void* message) {
   const std::string text = message != nullptr ? static_cast<const char*>(message) : "";
   auto& kept = *static_cast<std::string*>(fault);
   if (text.find("GLEW could not be initialized") == std::string::npos && kept.empty()) kept = text;
 }
 
-/// Means of samples x samples blocks, VTK's rows turned to go down.
+/// Means over blocks of samples x samples; VTK's rows are ordered from the bottom.
 void shrink_into(const unsigned char* rgb, cv::Size tile, cv::Mat3b& picture, cv::Point corner) {
   const cv::Size part(std::min(tile.width / samples, picture.cols - corner.x),
                       std::min(tile.height / samples, picture.rows - corner.y));

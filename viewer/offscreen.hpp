@@ -16,12 +16,12 @@ namespace odosplat {
 /// One depth-tested layer of a picture.
 struct FigureLayer {
   FigureMesh mesh;
-  bool cull_back = false;  // leave out triangles seen from their back: one looks through a room's near walls
+  bool cull_back = false;  // leave out triangles seen from behind, so that a room's near walls do not hide its inside
 };
 
-/// VTK drawing into memory, with no X server: an OpenGL context of EGL's and VTK's generic render window on it.
-/// Make one, draw with it, drop it; any number in turn, in any thread, but one at a time: VTK shares what it caches.
-/// Silent on standard error. Throws std::runtime_error where the machine has no OpenGL at all.
+/// Draws with VTK into memory, without an X server: an EGL context with VTK's generic render window on it. Windows may
+/// be created and destroyed one after another, in any thread, but only one may exist at a time, because VTK's caches
+/// are shared. Prints nothing on standard error. Throws std::runtime_error if the machine has no OpenGL.
 class OffscreenWindow {
  public:
   OffscreenWindow();
@@ -29,12 +29,12 @@ class OffscreenWindow {
   OffscreenWindow(const OffscreenWindow&) = delete;
   OffscreenWindow& operator=(const OffscreenWindow&) = delete;
 
-  /// The picture of view.size that the view has of the layers, each drawn over the one before it whatever their
-  /// depths. Smoothed by 2 x 2 samples a pixel. Drawn in tiles, so that memory does not grow with the size. The same
-  /// call gives the same bits. Blocks. Call it in the thread that made the window.
+  /// Renders the layers, each drawn over the previous ones whatever their depths, into a picture of view.size. Smoothed
+  /// by 2 x 2 samples per pixel. Drawn in tiles, so that memory does not grow with the size. The same call gives the
+  /// same bits. Blocks. To be called in the thread that created the window.
   cv::Mat3b render(const std::vector<FigureLayer>& layers, const FigureView& view, const Rgb& background);
 
-  /// Who draws, for logs: the way to OpenGL and the name of its renderer.
+  /// Platform and name of the renderer, for logs.
   std::string renderer() const;
 
  private:

@@ -13,11 +13,12 @@
 namespace odosplat {
 namespace {
 
-constexpr int shift = 4;  // fractional bits of OpenCV's drawing
+constexpr int shift = 4;  // fractional bits of coordinates in OpenCV's drawing functions
 
 cv::Scalar scalar(const Rgb& color) { return {double(color[0]), double(color[1]), double(color[2])}; }
 
-// OpenCV's (0,0) is the centre of the first pixel. Far points are pulled in, as its fixed-point numbers would overflow.
+// OpenCV's (0,0) is the centre of the first pixel. Coordinates are clamped, as OpenCV's fixed-point numbers would
+// overflow.
 cv::Point fixed_point(cv::Point2d p) {
   const auto coordinate = [](double v) {
     return static_cast<int>(std::lround((std::clamp(v, -1e5, 1e5) - 0.5) * (1 << shift)));
@@ -56,7 +57,8 @@ cv::Rect Page::text(const std::string& text, cv::Point2d at, const TextStyle& st
   const int size = std::max(4, static_cast<int>(std::lround(style.size)));
   cv::Mat1b ink = text_ink(text, size);
   if (ink.empty()) return {};
-  // The middle of a line of text, for the eye, is that of its capitals, which stand above the line's descenders.
+  // The visual middle of a line of text is that of its capitals, which is above the middle of the box with the
+  // descenders.
   double drop = style.y == AlignY::middle ? 0.11 * size : 0.0;
   double slide = 0.0;
   if (style.vertical) {
@@ -198,7 +200,7 @@ cv::Size figure_size(cv::Size asked, double aspect) {
 }
 
 double figure_font(cv::Size size) {
-  // 5 points are 1.76 mm: 4.1 % of 43 mm. A flat figure cannot spend as much of its height on letters.
+  // 5 points are 1.76 mm, which is 4.1 % of 43 mm. The second limit keeps the letters small on a flat figure.
   return std::max(4.0, std::min(0.042 * size.width, 0.08 * size.height));
 }
 

@@ -22,7 +22,7 @@ std::string to_ascii(const std::string& text) {
   std::string result;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if ((byte & 0xC0U) == 0x80U) continue;  // the rest of a UTF-8 character whose first byte gave the '?'
+    if ((byte & 0xC0U) == 0x80U) continue;  // continuation byte of a UTF-8 character, which gives only one '?'
     result += byte >= 0x20U && byte < 0x7FU ? c : '?';
   }
   return result;
@@ -59,7 +59,7 @@ cv::Mat1b text_ink(const std::string& text, int size) {
   const auto* pixels = static_cast<const unsigned char*>(image->GetScalarPointer());
   cv::Mat1b ink(std::min(used[1], dims[1]), std::min(used[0], dims[0]));
   for (int y = 0; y < ink.rows; ++y) {
-    for (int x = 0; x < ink.cols; ++x) {  // VTK's rows go up
+    for (int x = 0; x < ink.cols; ++x) {  // VTK's rows are ordered from the bottom
       ink(ink.rows - 1 - y, x) = pixels[(y * dims[0] + x) * channels + channels - 1];
     }
   }

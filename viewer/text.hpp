@@ -7,19 +7,19 @@
 
 namespace odosplat {
 
-/// Text drawn by VTK's FreeType with the sans-serif font that is part of VTK, so that figures look the same wherever
-/// they are made. That font holds ASCII only: every other character is drawn as '?'. One line; any thread (calls are
-/// serialised, VTK's font cache is one for the process).
+/// Text drawn by VTK's FreeType with VTK's built-in sans-serif font, so that figures look the same on every machine.
+/// The font contains only ASCII: every other character is drawn as '?'. One line; any thread (calls are serialised,
+/// because VTK's font cache is shared by the process).
 
-/// Ink of a line of text, 0..255: as wide as the text, as high as a line of that size [px]. size < 4 is drawn as 4.
-/// Empty text gives an empty matrix.
+/// Coverage (0..255) of a line of text: as wide as the text, as high as a line of that size [px]. size < 4 is drawn as
+/// 4. Empty text gives an empty matrix.
 cv::Mat1b text_ink(const std::string& text, int size);
 
 /// Width of the line [px]; 0 for empty text.
 int text_width(const std::string& text, int size);
 
-/// Text as it fits into max_width [px]: at `size` if it can be, else smaller (not below `least` of it), else cut with
-/// "..." at its end.
+/// Text that fits into max_width [px]: at `size` if possible, otherwise smaller (not below `least` times size),
+/// otherwise cut with "..." at its end.
 struct FittedText {
   std::string text;
   int size = 0;

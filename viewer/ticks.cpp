@@ -13,7 +13,7 @@ std::string fixed(double value, int decimals) {
   char text[64];
   std::snprintf(text, sizeof(text), "%.*f", std::clamp(decimals, 0, 12), value);
   std::string result = text;
-  // A rounded negative number may print as "-0.0".
+  // Removes the sign of a negative number that was rounded to zero ("-0.0").
   if (result.front() == '-' && result.find_first_not_of("-0.") == std::string::npos) return result.substr(1);
   return result;
 }

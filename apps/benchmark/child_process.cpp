@@ -22,14 +22,15 @@
 namespace odosplat::apps {
 namespace {
 
-constexpr int exit_not_found = 127;  // as a shell has it
+constexpr int exit_not_found = 127;  // the status of a shell for a command that it cannot run
 
-// The program runs below a process of ours that adopts whatever it leaves behind (PR_SET_CHILD_SUBREAPER), so that its
-// children are found whatever session they move to, and that kills all of them when the program or the runner ends. The
-// functions below run in that process. It is not replaced by another program: the C library makes memory usable after
-// fork(), and nothing else is needed that a thread of the runner may have held.
+// The program runs below a supervising process, which adopts all orphaned descendants (PR_SET_CHILD_SUBREAPER). It
+// therefore finds them in whatever session they are, and kills all of them when the program or the runner ends. The
+// functions below run in the supervisor. It does not call exec(): after fork() the C library allows allocation, and
+// nothing else is needed that another thread of the runner may have locked.
 
-/// The log, on standard output and error; nothing else of the runner's stays open.
+/// Connects standard output and error to the log, standard input to /dev/null, and closes all other descriptors
+/// inherited from the runner.
 bool connect(const char* log) {
   const int nothing = open("/dev/null", O_RDONLY);
   ::unlink(log);
@@ -41,7 +42,7 @@ bool connect(const char* log) {
   return close_range(3, ~0U, 0) == 0;
 }
 
-/// Ends as the program did, for the runner to see.
+/// Ends this process with the program's exit status or by its signal, so that the runner sees how the program ended.
 [[noreturn]] void end_like(int status) {
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
@@ -55,14 +56,14 @@ bool connect(const char* log) {
 }
 
 [[noreturn]] void supervise(pid_t runner, const char* log, char* const* command) {
-  setpgid(0, 0);  // the terminal's Ctrl-C is the runner's to hear
+  setpgid(0, 0);  // a process group of its own: the terminal's Ctrl-C reaches the runner only
   sigset_t events;
   sigset_t before;
   sigfillset(&events);
   sigprocmask(SIG_SETMASK, &events, &before);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != runner) _exit(exit_not_found);  // it died before the line above
+  if (getppid() != runner) _exit(exit_not_found);  // the runner died before prctl() took effect
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   if (!connect(log)) _exit(exit_not_found);
@@ -84,7 +85,7 @@ bool connect(const char* log) {
   sigaddset(&events, SIGCHLD);
   sigaddset(&events, SIGTERM);
   while (!ended) {
-    if (sigwaitinfo(&events, nullptr) == SIGTERM) {  // the runner has died, or wants all to end
+    if (sigwaitinfo(&events, nullptr) == SIGTERM) {  // sent by the kernel when the runner dies, or by the runner itself
       status = SIGTERM;
       break;
     }
@@ -136,7 +137,7 @@ std::optional<ProcessEnd> ChildProcess::poll() {
   double memory = 0.0;
   for (const ProcessEntry& process : descendants(supervisor_)) memory += process.memory_mb;
   peak_memory_mb_ = std::max(peak_memory_mb_, memory);
-  // Words without measured values: tables of two runs are to be equal.
+  // The texts contain no measured values, so that the tables of two runs are equal.
   if (memory > limits_.memory_mb) {
     verdict_ = "stopped at the memory limit of " + std::to_string(std::lround(limits_.memory_mb)) + " MB";
   } else if (seconds() > limits_.seconds) {

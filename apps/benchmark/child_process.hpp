@@ -13,32 +13,33 @@ namespace odosplat::apps {
 
 struct ProcessLimits {
   double seconds = 7200.0;    // wall time
-  double memory_mb = 8192.0;  // resident, of the process and all below it
+  double memory_mb = 8192.0;  // resident, sum over the process and its descendants
 };
 
 struct ProcessEnd {
-  std::string fault;  // a line; empty: it ended with status 0
+  std::string fault;  // one line; empty: it ended with status 0
   double seconds = 0.0;
   double peak_memory_mb = 0.0;  // largest resident size seen
 };
 
-/// A program run beside this one, apart from the terminal's Ctrl-C, its output going to a file. It is stopped at its
-/// limits. With it, or with this process however that ends, all its children end, those included that moved to a
-/// session of their own. Linux. Not thread safe.
+/// A child process in a process group of its own (the terminal's Ctrl-C does not reach it), with its output in a file.
+/// It is stopped when it exceeds its limits. When it ends, or when this process ends in whatever way, all its
+/// descendants are killed, also those in sessions of their own. Linux only. Not thread safe.
 class ChildProcess {
  public:
-  /// command: program (looked up in PATH unless it has a slash) and arguments. log: made anew; its folder must exist. A
-  /// program that cannot be run ends with a fault. Throws std::runtime_error if no process can be made.
+  /// command: program (looked up in PATH unless it contains a slash) and arguments. log: replaced if it exists; its
+  /// folder must exist. A program that cannot be run ends with a fault. Throws std::runtime_error if no process can be
+  /// created.
   ChildProcess(const std::vector<std::string>& command, const std::string& log, const ProcessLimits& limits);
-  /// Kills it if it still runs.
+  /// Kills the process if it still runs.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// How it ended, if it has; enforces the limits. To be called every now and then.
+  /// Enforces the limits and returns how the process ended; nothing while it runs. To be called periodically.
   std::optional<ProcessEnd> poll();
 
-  /// Asks it to end (SIGTERM), and kills it after `patience` seconds.
+  /// Sends SIGTERM to the process and its descendants; kills them if they still run after `patience` seconds.
   void stop(double patience);
 
  private:

@@ -11,8 +11,8 @@
 namespace odosplat::apps {
 namespace {
 
-/// Bytes of the UTF-8 character at the start; 0 if there is none: a wrong or missing byte, a longer form than needed, a
-/// surrogate, or beyond U+10FFFF.
+/// Length in bytes of the UTF-8 character at the start. 0 if it is invalid: a wrong or missing byte, an overlong
+/// encoding, a surrogate, or a code point beyond U+10FFFF.
 std::size_t character_size(std::string_view bytes) {
   const auto at = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
   const unsigned char first = at(0);
@@ -28,14 +28,14 @@ std::size_t character_size(std::string_view bytes) {
   return size;
 }
 
-/// ASCII's control characters, and those of U+0080 to U+009F, which terminals obey as well.
+/// Whether a character is a control character: of ASCII, or U+0080 to U+009F, which terminals interpret as well.
 bool is_control(std::string_view character) {
   const auto first = static_cast<unsigned char>(character[0]);
   if (character.size() == 1) return first < 0x20 || first == 0x7f;
   return first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0;
 }
 
-/// The end of a regular file.
+/// The last `most` bytes of a file; empty unless it is a regular file.
 std::string tail_of(const std::string& file, off_t most) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return "";

@@ -8,13 +8,13 @@
 
 namespace odosplat::apps {
 
-/// What other programs wrote, made fit for a line of a report or a terminal: UTF-8, in which every byte that is not
-/// (such as one of Latin-1) and every control character is a question mark. Of a text over `longest` bytes the start is
-/// kept, up to a whole character, and three dots.
+/// Makes the output of other programs printable in a report or on a terminal: valid UTF-8, with a question mark for
+/// every invalid byte (such as one of Latin-1) and every control character. A text over `longest` bytes is cut at a
+/// character boundary and ends with three dots.
 std::string clean_text(std::string_view bytes, std::size_t longest = 200);
 
-/// The last line with words in it, cleaned, of a file of any size; of a line that a progress bar overwrote, what was
-/// left to see. Empty if there is none.
+/// The last line of a file (of any size) that is not blank, cleaned. A line that a progress bar has overwritten counts
+/// with its last visible state. Empty if there is no such line.
 std::string last_line(const std::string& file);
 
 }  // namespace odosplat::apps

@@ -23,7 +23,7 @@ namespace odosplat::apps {
 namespace {
 
 using Json = nlohmann::json;
-using Faults = std::map<std::string, std::string>;  // of the jobs that have one
+using Faults = std::map<std::string, std::string>;  // by job id, of jobs that have a fault
 
 /// A file of keys and values, which another program may have written.
 class Report {
@@ -35,7 +35,7 @@ class Report {
 
   bool has(const char* key) const { return json_.contains(key); }
   double number(const char* key, double missing) const { return number_of(json_, key, missing); }
-  /// The same of a count.
+  /// The same for a count.
   int count(const char* key, int missing) const {
     constexpr double most = 1e9;
     const double value = number(key, missing);
@@ -79,7 +79,7 @@ std::string processor() {
 
 std::string machine() { return processor() + ", " + std::to_string(std::thread::hardware_concurrency()) + " cores"; }
 
-/// True poses of the tested images, with the images' stamps.
+/// True poses of the tested images, with the images' time stamps.
 Trajectory truth_of_images(const Sequence& sequence, const FrameRange& range) {
   Trajectory truth;
   for (std::size_t i = range.begin; i < std::min(range.end, sequence.size()); ++i) {
@@ -147,7 +147,7 @@ MapFacts map_facts(const PlannedMap& planned, const Faults& faults) {
   return facts;
 }
 
-/// What a run says of itself, where it does: programs of other people need not.
+/// Reads a run's report.json if there is one: external programs need not write it.
 void read_report(const PlannedRun& planned, const JobRecord& record, RunFacts& facts) {
   const std::string file = planned.folder + "/report.json";
   facts.peak_memory_mb = record.peak_memory_mb;
@@ -191,7 +191,7 @@ RunFacts run_facts(const PlannedRun& planned, const SequenceFacts& sequence, con
     facts.unaligned = judged(facts.estimate, sequence.truth, TrajectoryAlignment::none);
     if (!facts.unaligned.doubt.empty()) throw InputError("trajectory.txt", "only " + facts.unaligned.doubt);
     facts.aligned = facts.unaligned;
-    // Too few poses, or all on a line, determine no alignment: the run stands as it is.
+    // An alignment is undetermined if the poses are too few or all on one line: then the unaligned result is reported.
     try {
       facts.aligned = judged(facts.estimate, sequence.truth, TrajectoryAlignment::se3);
     } catch (const InputError&) {
@@ -208,7 +208,7 @@ RunFacts run_facts(const PlannedRun& planned, const SequenceFacts& sequence, con
   return facts;
 }
 
-/// OpenCL device that the runs used, as they say.
+/// OpenCL device that the runs used, according to their reports.
 std::string device_of(const Plan& plan) {
   for (const PlannedRun& run : plan.runs) {
     const std::string file = run.folder + "/report.json";
@@ -217,7 +217,7 @@ std::string device_of(const Plan& plan) {
       const std::string device = Report(file).words("device", "none");
       if (device != "none") return device;
     } catch (const InputError&) {
-      // The run's own row says so.
+      // The fault is reported in the run's own row.
     }
   }
   return "none";

@@ -7,8 +7,8 @@
 
 namespace odosplat::apps {
 
-/// Reads what the jobs of a plan left and judges every run by the sequence's truth. Jobs that failed or were not run
-/// are in it with their fault. Nothing is run; the same files give the same results.
+/// Reads the output of a plan's jobs and evaluates every run against the sequence's true poses. Jobs that failed or
+/// were not run are included with their fault. Nothing is run; the same files give the same results.
 BenchmarkResults gather(const Plan& plan);
 
 }  // namespace odosplat::apps

@@ -42,7 +42,7 @@ std::vector<std::string> fingerprints(const std::vector<Job>& jobs) {
     sum.add(ODOSPLAT_VERSION);
     for (const std::string& word : job.command) {
       sum.add(word);
-      sum.add(std::string_view("\0", 1));  // "a" "bc" is not "ab" "c"
+      sum.add(std::string_view("\0", 1));  // a separator: "a" "bc" must not hash as "ab" "c"
     }
     for (const std::string& need : job.needs) {
       const auto found = by_id.find(need);

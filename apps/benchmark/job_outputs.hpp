@@ -9,12 +9,12 @@
 
 namespace odosplat::apps {
 
-/// Of text that jobs leave behind: more is no trajectory and no report.
+/// Limit for text files that jobs write: a larger file is neither a trajectory nor a report.
 inline constexpr std::size_t most_result_bytes = std::size_t{256} << 20U;
 
-/// What is wrong with the files of a job that has run, in words that name the file: an output that is missing or no
-/// regular file, text (*.txt, *.json) that is too large, a *.json that is cut or no JSON object. Empty: nothing. Files
-/// that it need not write (Job::reports) may be missing.
+/// Checks the output files of a job that has run. Returns a message that names the file: a missing output or one that
+/// is no regular file, a text file (*.txt, *.json) over the size limit, a *.json that is truncated or no JSON object.
+/// Empty: no fault. Optional files (Job::reports) may be missing.
 std::string output_fault(const Job& job);
 
 }  // namespace odosplat::apps

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 const std::string needs_words = "needs ";
 constexpr auto poll_interval = std::chrono::milliseconds(50);
-constexpr double stop_patience = 20.0;  // [s] in which training writes its checkpoint
+constexpr double stop_patience = 20.0;  // [s] for training to write its checkpoint
 
 int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
@@ -43,8 +43,9 @@ std::vector<std::string> command_of(const Job& job, const RunnerOptions& options
   return command;
 }
 
-/// Takes away what another version of the job left: results that this one might fail to write anew, and checkpoints
-/// that it could not go on from. Files outside of the benchmark's folder are caches that look after themselves.
+/// Removes files left by a different version of the job (another fingerprint): results, which would look valid if the
+/// job failed before it rewrote them, and checkpoints from which it cannot continue. Files outside the benchmark's
+/// folder are caches that check themselves whether they are valid.
 void clear_leftovers(const std::string& out, const Job& job, const std::string& fingerprint) {
   const std::string marker = out + "/jobs/" + job.id + "/started";
   if (fs::exists(marker) && read_file(marker) == fingerprint) return;
@@ -77,7 +78,7 @@ JobRecord record_of(const Job& job, const std::string& fingerprint, const Proces
   return record;
 }
 
-/// The jobs' states and what is printed of them.
+/// Keeps the state of all jobs and prints progress.
 class Board {
  public:
   Board(const std::vector<Job>& jobs, int at_a_time) : jobs_(jobs), at_a_time_(at_a_time) {
@@ -107,7 +108,7 @@ class Board {
     record.fault.empty() ? log_info(line) : log_warning(line);
   }
   bool settled(const Job& job) const { return through_.count(job.id) > 0 || failed_.count(job.id) > 0; }
-  /// The first thing it needs that failed; empty: none.
+  /// The first needed job that failed; empty: none.
   std::string failed_need(const Job& job) const {
     for (const std::string& need : job.needs) {
       if (failed_.count(need) > 0) return need;
@@ -186,7 +187,7 @@ RunnerOutcome run_jobs(const std::string& out, const std::vector<Job>& jobs, con
       const Job& job = jobs[r->index];
       const JobRecord record = record_of(job, prints[r->index], *end);
       r = running.erase(r);
-      if (interrupted()) continue;  // it may have been stopped by the same Ctrl-C
+      if (interrupted()) continue;  // not recorded: it may have been stopped by the same Ctrl-C
       write_record(out, record);
       board.settle(job, record.fault.empty());
       board.report(job, record, true);

@@ -5,7 +5,8 @@
 namespace odosplat::apps {
 namespace {
 
-// The programs that the others stand for do not look up where they are: nor do they here.
+// The published methods that "interpolation", "surfel", "rgbd" and "paper" stand for do not relocalise, so
+// relocalisation is off for them.
 const std::vector<MethodRecipe>& recipes() {
   static const std::vector<MethodRecipe> all{
       {"gaussian", {"--method", "gaussian"}, true, false, false},

@@ -28,7 +28,7 @@ std::string replaced(std::string text, const std::map<std::string, std::string>&
   return text;
 }
 
-/// Puts a plan together; every job is added once, behind those it needs.
+/// Builds a plan. Every job is added once, after the jobs it needs.
 class Planner {
  public:
   Planner(const BenchmarkOptions& options, const Suite& suite) : options_(options), suite_(suite) {
@@ -64,7 +64,7 @@ class Planner {
     }
   }
 
-  /// The sequence and the job that renders it, if it needs one.
+  /// Plans a sequence and, for a stand-in, the job that renders it.
   PlannedSequence sequence(const SuiteSequence& s) {
     const SuiteScene& scene = suite_.scene(s.scene);
     PlannedSequence planned;
@@ -114,13 +114,13 @@ class Planner {
     return found;
   }
 
-  /// 0 or 1, in turn over a scene's sequences.
+  /// Half of a split that the sequence belongs to: 0 and 1 alternate over the sequences of a scene.
   std::size_t fold(const SuiteSequence& s) const {
     const auto all = of_scene(s.scene);
     return static_cast<std::size_t>(std::find(all.begin(), all.end(), &s) - all.begin()) % 2;
   }
 
-  /// What a map is made of.
+  /// Sequences that a map is made of.
   struct Sources {
     Words paths;
     Words jobs;
@@ -149,10 +149,10 @@ class Planner {
     return sources;
   }
 
-  /// File and job of the cloud that a sequence's map is made of.
+  /// File of the cloud that the sequence's map is made of, and the job that makes it.
   std::pair<std::string, std::string> cloud(const PlannedSequence& tested) {
     const SuiteScene& scene = suite_.scene(tested.scene);
-    const bool shared = !scene.stand_in.empty() || !scene.cloud.empty();  // by both maps of a split
+    const bool shared = !scene.stand_in.empty() || !scene.cloud.empty();  // one cloud for both maps of a split
     const std::string name = shared ? tested.scene : tested.map;
     Job job;
     job.id = "cloud/" + name;
@@ -179,7 +179,7 @@ class Planner {
     return {job.outputs[0], job.id};
   }
 
-  /// File and job of the map that a sequence is tested in.
+  /// File of the map that the sequence is tested in, and the job that makes it.
   std::pair<std::string, std::string> map(const PlannedSequence& tested, const std::string& preset) {
     PlannedMap planned;
     planned.name = tested.map;
@@ -215,7 +215,7 @@ class Planner {
     return {planned.file, planned.job};
   }
 
-  /// Names the sequence's own map and cloud, if there are jobs that make them.
+  /// Sets the files of the sequence's own map and cloud if the plan has jobs that make them.
   void find_files(PlannedSequence& s) const {
     for (const Job& job : plan_.jobs) {
       if (job.id == "map/" + s.map) s.map_file = job.outputs[0];
@@ -288,7 +288,7 @@ class Planner {
     if (wants("{map}")) made("{map}", map(s, "default"));
     if (wants("{paper_map}")) made("{paper_map}", map(s, "paper"));
     for (const std::string& word : method.command) job.command.push_back(replaced(word, values));
-    // A program named by a relative path lies beside the suite's file.
+    // A program with a relative path is looked up beside the suite's file.
     const fs::path program = fs::path(suite_.folder) / job.command[0];
     if (job.command[0].find('/') != std::string::npos && fs::exists(program)) {
       job.command[0] = fs::absolute(program).lexically_normal().string();

@@ -16,16 +16,16 @@ namespace odosplat::apps {
 struct PlannedSequence {
   std::string name;
   std::string scene;
-  std::string words;   // of the scene
+  std::string words;   // name of the scene in tables
   std::string path;    // folder, absolute
-  std::string frames;  // "A:B" that are tested; empty: all
+  std::string frames;  // "A:B", range that is tested; empty: all
   bool stand_in = false;
-  std::string job;         // that renders it; empty: it is there
-  std::string check_job;   // of its conventions
-  std::string check_file;  // JSON that this writes
+  std::string job;         // that renders it; empty: none, the sequence exists
+  std::string check_job;   // that checks its conventions
+  std::string check_file;  // JSON file that check_job writes
   std::string map;         // name of the map that it is tested in
-  std::string map_file;    // of our own preset; empty: no method here uses one
-  std::string cloud_file;  // likewise
+  std::string map_file;    // map of the default preset; empty: no method here uses one
+  std::string cloud_file;  // its cloud; empty likewise
 };
 
 struct PlannedMap {
@@ -50,26 +50,26 @@ struct Plan {
   BenchmarkOptions options;
   std::string suite;
   bool stand_in = false;
-  std::string mapping;  // the protocol in a sentence
-  std::string quick;    // what was cut short, in words; empty: nothing
+  std::string mapping;  // the mapping protocol in a sentence
+  std::string quick;    // what --quick shortened, in words; empty: nothing
   std::vector<std::string> methods;
-  std::vector<PlannedSequence> sequences;  // tested
+  std::vector<PlannedSequence> sequences;  // the tested ones
   std::vector<PlannedMap> maps;
   std::vector<PlannedRun> runs;
-  std::vector<Job> jobs;  // each behind those it needs
+  std::vector<Job> jobs;  // each after those it needs
 };
 
-/// What has to be done for these options. The same options and suite give the same plan. Recorded sequences must be
-/// there (InputError); nothing is run or written.
+/// Makes the plan for these options. The same options and suite give the same plan. Recorded sequences must exist
+/// (InputError); nothing is run or written.
 Plan make_plan(const BenchmarkOptions& options);
 
-/// OUT/plan.json: the options, and the jobs for whoever schedules them (`odosplat benchmark --out OUT --job ID`).
+/// Writes OUT/plan.json: the options, and the jobs for external schedulers (`odosplat benchmark --out OUT --job ID`).
 void write_plan(const Plan& plan);
-/// The plan of a folder, made again from the options kept there. InputError if there is none.
+/// Makes the plan of a folder again from the options in its plan.json. InputError if there is none.
 Plan read_plan(const std::string& out);
 
-/// Where stand-ins are kept for all benchmarks: the cache given, else ODOSPLAT_CACHE_DIR, $XDG_CACHE_HOME/odosplat or
-/// $HOME/.cache/odosplat, each with /stand-ins. InputError if there is none of these.
+/// Folder of rendered stand-ins, shared by all benchmarks: the --cache option, else the subfolder stand-ins of
+/// ODOSPLAT_CACHE_DIR, $XDG_CACHE_HOME/odosplat or $HOME/.cache/odosplat. InputError if none of these is set.
 std::string cache_folder(const BenchmarkOptions& options);
 
 }  // namespace odosplat::apps

@@ -45,7 +45,7 @@ std::string cache_folder(const BenchmarkOptions& options) {
 
 namespace {
 
-/// A path may hold any bytes, a JSON text only UTF-8: other paths are written as an object with their bytes.
+/// A path may contain any bytes, JSON text only UTF-8: a path that is not UTF-8 is written as an object with its bytes.
 nlohmann::ordered_json path_json(const std::string& path) {
   try {
     static_cast<void>(nlohmann::ordered_json(path).dump());
@@ -66,7 +66,7 @@ std::string path_of(const nlohmann::json& json) {
 void write_plan(const Plan& plan) {
   const BenchmarkOptions& o = plan.options;
   nlohmann::ordered_json json;
-  // Whoever goes on from this file may stand in another folder.
+  // Absolute, because a scheduler may continue from this file in another working directory.
   const auto absolute = [](const std::string& path) {
     return path_json(path.empty() ? path : fs::absolute(path).string());
   };

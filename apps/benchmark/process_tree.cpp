@@ -24,8 +24,8 @@ struct Listed {
   double memory_mb;
 };
 
-/// The line of /proc/PID/stat. The name, in brackets, may hold anything; behind it: state, parent, ..., resident pages
-/// as 24th field.
+/// Reads /proc/PID/stat. The process name, in parentheses, may contain any characters; after it follow state, parent,
+/// ..., and as field 24 the number of resident pages. False if the process has ended.
 bool read_entry(const char* pid, double page_mb, Listed& entry) {
   char text[1024];
   std::snprintf(text, sizeof(text), "/proc/%s/stat", pid);
@@ -88,7 +88,7 @@ void kill_descendants(pid_t root) {
   for (int i = 0; i < most_rounds; ++i) {
     const std::vector<ProcessEntry> left = descendants(root);
     if (left.empty()) return;
-    // Stopped first: else one may make another while the list is gone through.
+    // All are stopped before any is killed, so that none can fork while the list is processed.
     for (const ProcessEntry& process : left) ::kill(process.pid, SIGSTOP);
     for (const ProcessEntry& process : left) ::kill(process.pid, SIGKILL);
     const timespec pause{0, 10'000'000};

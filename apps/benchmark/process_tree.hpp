@@ -8,21 +8,22 @@
 
 namespace odosplat::apps {
 
-/// A process as /proc has it.
+/// A process listed in /proc.
 struct ProcessEntry {
   pid_t pid = 0;
   double memory_mb = 0.0;  // resident
 };
 
-/// All children of a process, their children, and so on, whatever session or group they are in; not the process itself,
-/// and not what has ended and is only waited for. Those whose parent ended belong to the nearest ancestor that is a
-/// child subreaper (prctl), so below one nobody gets lost. Linux.
+/// All descendants of a process, in whatever session or process group they are; not the process itself, and no zombies.
+/// A process whose parent has ended is reparented to the nearest ancestor that is a child subreaper (prctl), so the
+/// descendants of a subreaper are complete. Linux only.
 std::vector<ProcessEntry> descendants(pid_t root);
 
-/// Sends a signal to all of them.
+/// Sends a signal to all descendants.
 void signal_descendants(pid_t root, int signal);
 
-/// Kills them until there is none, or for some seconds: what is stuck in the kernel cannot be killed.
+/// Kills the descendants repeatedly until none is left, or for some seconds: a process blocked in the kernel cannot be
+/// killed.
 void kill_descendants(pid_t root);
 
 }  // namespace odosplat::apps

@@ -51,7 +51,7 @@ void print_summary(const BenchmarkResults& results) {
   if (results.stand_in) print("Stand-ins made by this program, not the data sets of these names.\n");
 }
 
-/// Map and cloud of each sequence as its runs have them, for the figures.
+/// Map and cloud that the runs on each sequence use, for the figures.
 std::map<std::string, MapFlags> maps_of(const Plan& plan) {
   std::map<std::string, MapFlags> maps;
   for (const PlannedSequence& s : plan.sequences) maps[s.name] = {s.map_file, s.cloud_file};

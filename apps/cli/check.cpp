@@ -86,7 +86,7 @@ CloudCheckReport check_with_cloud(const Sequence& sequence, const CheckFlags& fl
   return report;
 }
 
-/// Of up to 100 images, evenly over the sequence, brought to the size at which shares are compared.
+/// Texture of up to 100 images, evenly spaced over the sequence and resized to the size at which shares are compared.
 TextureSummary texture_of(const Sequence& sequence) {
   constexpr std::size_t most = 100;
   const cv::Size size(320, 240);
@@ -101,7 +101,7 @@ TextureSummary texture_of(const Sequence& sequence) {
   return summarise_texture(statistics);
 }
 
-/// Of every file that the sequence lists, and of its true poses as read.
+/// Checksum of every file that the sequence lists and of its true poses as read.
 std::string checksum_of(const Sequence& sequence) {
   Checksum sum;
   for (std::size_t i = 0; i < sequence.size(); ++i) {

@@ -11,7 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Beyond this share a focal length is a guess that nobody should use.
+// Upper limit of a focal length's standard deviation, as a share of the focal length: a less certain estimate is not
+// reported.
 constexpr double most_focal_sigma = 0.02;
 
 Json or_null(const std::optional<bool>& value) { return value ? Json(*value) : Json(nullptr); }
@@ -39,7 +40,8 @@ Json findings_of(const CheckResults& results) {
   return list;
 }
 
-// Depth speaks of the camera that took it, the cloud of the one that took the colours; either may tell.
+// Depth images show the poses of the depth camera, the cloud those of the colour camera; depth is preferred if both
+// decide.
 std::optional<bool> poses_inverted(const CheckResults& results) {
   if (results.conventions && results.conventions->believable && results.conventions->findings[1].decided) {
     return results.conventions->winner.inverted;
@@ -55,7 +57,7 @@ std::optional<bool> poses_inverted(const CheckResults& results) {
 std::optional<Measured> color_focal(const Sequence& sequence, const CheckResults& results) {
   const double declared = sequence.camera().fx;
   std::optional<Measured> focal;
-  // Edges of depth need no poses, so none of their errors is in them.
+  // The comparison of depth edges with image edges does not use the poses, so errors of the poses do not affect it.
   if (results.registration && results.registration->registered) {
     focal = Measured{declared * results.registration->scale, declared * results.registration->scale_sigma};
   } else if (results.cloud && results.cloud->fit) {

@@ -13,7 +13,7 @@
 
 namespace odosplat::apps {
 
-/// What `odosplat check` found out; none: not asked, or nothing to ask by.
+/// Results of `odosplat check`; an empty result: not requested, or the sequence has no data for it.
 struct CheckResults {
   std::optional<ConventionReport> conventions;     // by depth images
   std::optional<RegistrationReport> registration;  // by depth images
@@ -21,8 +21,9 @@ struct CheckResults {
   TextureSummary texture;
 };
 
-/// What all of it comes to. differ: something is found to differ, or nothing fits. undecided: nothing is, but the data
-/// do not show that they agree.
+/// Overall result.
+/// differ: a difference is found, or no hypothesis fits the data
+/// undecided: no difference is found, but the data do not show that they agree
 enum class CheckAnswer { agree, differ, undecided };
 
 CheckAnswer answer_of(const CheckResults& results);
@@ -30,7 +31,7 @@ CheckAnswer answer_of(const CheckResults& results);
 /// One line of all verdicts.
 std::string verdict_of(const CheckResults& results);
 
-/// The content of --json. checksum: of the sequence's data.
+/// The content of the file for --json. checksum: of the sequence's data.
 std::string check_json(const Sequence& sequence, const CheckResults& results, const std::string& checksum);
 
 }  // namespace odosplat::apps

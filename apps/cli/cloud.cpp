@@ -23,7 +23,7 @@ namespace odosplat::apps {
 namespace {
 
 struct CloudFlags {
-  std::vector<std::string> sequences;  // in one world frame
+  std::vector<std::string> sequences;  // all in one world frame
   SequenceFlags layout;
   std::vector<std::string> from;
   std::vector<double> origin{0.0, 0.0, 0.0};

@@ -61,7 +61,8 @@ void add_devices(CLI::App& app, Common& common) {
   command->add_flag("--json", *json, "print JSON");
   command->final_callback([&common, json] {
     const std::vector<compute::DeviceInfo> devices = compute::list_devices();
-    // A list is worth printing also where nothing can be chosen; an explicit wish that fails is an error.
+    // The list is printed even if no device can be selected automatically; it is an error only if --device names one
+    // that does not exist.
     int chosen = -1;
     if (!devices.empty() || !common.device.empty()) {
       try {

@@ -27,7 +27,7 @@ struct EvalFlags {
   EvalOptions options;
 };
 
-/// Null where there was nothing to measure.
+/// Null if there are no values.
 nlohmann::ordered_json json_of(const Statistics& s) {
   if (s.count == 0) {
     return {{"rmse", nullptr}, {"mean", nullptr}, {"median", nullptr}, {"max", nullptr}, {"p99", nullptr}};
@@ -55,7 +55,7 @@ EvalResult evaluate_or_say_why(const JudgedTrajectory& judged, const EvalOptions
   }
 }
 
-/// No errors are no errors of zero: "-".
+/// Prints "-" if there are no values, which is not the same as errors of zero.
 void print_row(const char* name, const Statistics& s, double unit, const char* format) {
   print("%-10s", name);
   for (const double value : {s.rmse, s.mean, s.median, s.max, s.p99}) {

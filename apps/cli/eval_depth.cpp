@@ -25,7 +25,7 @@
 namespace odosplat::apps {
 namespace {
 
-// What the odometry would pick in this image.
+// Mask of the pixels that the odometry would select in this image.
 cv::Mat1b selected_mask(PixelSelector& selector, const GrayImage& gray, const Camera& camera) {
   constexpr int wanted = 2000;
   const std::vector<GradientImage> gradients = build_gradients(build_frame_pyramid(camera, gray));
@@ -151,7 +151,7 @@ void add_eval_depth(CLI::App& app, Common& common) {
     if (job->json.empty()) return;
     nlohmann::ordered_json json{
         {"all", json_of(o.all)}, {"selected", json_of(o.selected)}, {"edges", json_of(o.edges)}, {"frames", o.frames}};
-    // JSON has no NaN: null says that the map has no colour.
+    // JSON has no NaN: null if the map has no colour.
     json["psnr_db"] = std::isfinite(o.psnr_db) ? nlohmann::ordered_json(o.psnr_db) : nullptr;
     json["ssim"] = std::isfinite(o.ssim) ? nlohmann::ordered_json(o.ssim) : nullptr;
     write_file_atomically(job->json, json_text(json));

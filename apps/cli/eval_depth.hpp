@@ -15,8 +15,8 @@ struct EvalDepthJob {
   MapFlags map;
   DepthNoiseFlags depth_noise;
   std::string json;
-  int every = 10;                     // step between judged frames
-  int skip_every = skip_as_map_says;  // frames_not_trained_on
+  int every = 10;                     // step between evaluated frames
+  int skip_every = skip_as_map_says;  // see frames_not_trained_on
   std::string frames;                 // "A:B", empty: all
 };
 
@@ -24,12 +24,13 @@ struct EvalDepthOutcome {
   DepthErrors all;
   DepthErrors selected;
   DepthErrors edges;
-  double psnr_db = 0.0;  // NaN where the map has no colour
+  double psnr_db = 0.0;  // NaN if the map has no colour
   double ssim = 0.0;
   int frames = 0;
 };
 
-/// Depth (and colour) of a map at true poses against the sequence's own, on frames the map was not made from.
+/// Compares a map's depth (and colour), rendered at true poses, with the sequence's images, on frames that the map was
+/// not made from.
 EvalDepthOutcome evaluate_depth(const Common& common, const EvalDepthJob& job);
 
 }  // namespace odosplat::apps

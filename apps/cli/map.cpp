@@ -25,12 +25,12 @@ struct MapInfoFlags {
   bool settings = false;
 };
 
-/// What a map's file says of itself.
+/// Contents of a map file and its header.
 struct MapInfo {
   std::size_t gaussians = 0;
   int sh_degree = 0;
   std::uintmax_t bytes = 0;
-  Eigen::Vector3f least = Eigen::Vector3f::Zero();  // [m] of the centres
+  Eigen::Vector3f least = Eigen::Vector3f::Zero();  // smallest coordinates of the centres [m]
   Eigen::Vector3f most = Eigen::Vector3f::Zero();
   BlendOrder order = BlendOrder::depth;
   std::optional<SigmaModel> sigma;  // none: not calibrated

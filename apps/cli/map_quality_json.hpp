@@ -8,7 +8,7 @@
 
 namespace odosplat::apps {
 
-/// What a map is worth, as reports have it: unknown values are null.
+/// A map's quality as JSON for reports: unknown values are null.
 nlohmann::ordered_json json_of(const MapQuality& quality);
 
 }  // namespace odosplat::apps

@@ -49,18 +49,18 @@ struct RelocaliseJob {
   OptionValues options;
 };
 
-/// One image looked up.
+/// Result of looking up one image.
 struct Row {
   std::size_t frame;
   Relocalization answer;
-  std::optional<double> error_m;  // none: not found, or the true pose is not known
+  std::optional<double> error_m;  // none: not found, or no true pose
   std::optional<double> error_deg;
-  bool judged;  // there is a true pose
+  bool judged;  // whether there is a true pose
   double seconds;
-  double cpu_seconds;  // of all threads: what it takes on a machine that others use, too
+  double cpu_seconds;  // of all threads; unlike wall time it does not depend on other load of the machine
 };
 
-/// Whether at least half of what the whole map shows there belongs to the half that is deleted.
+/// Whether at least half of the pixels with depth in a view of the whole map belong to the half that is left out.
 bool loses_half(MapView& whole, const Camera& camera, const SE3& T_world_camera, const MapHalf& half) {
   const Camera small = camera.resized(80, 60);
   const ViewImages view = whole.render(small, T_world_camera, {});
@@ -77,7 +77,8 @@ bool loses_half(MapView& whole, const Camera& camera, const SE3& T_world_camera,
   return 2 * lost >= seen;
 }
 
-/// Random frames that are no mapping views.
+/// Random frames among those that the map was not made from. With --without-half, only frames of which at least half
+/// shows the half that is left out.
 std::vector<std::size_t> chosen_frames(const Common& common, const Sequence& sequence, const RelocaliseJob& job) {
   const FrameRange range = job.range.empty() ? FrameRange() : parse_frames(job.range);
   std::vector<std::size_t> frames = frames_not_trained_on(sequence, range, job.skip_every, job.map.map);
@@ -151,7 +152,7 @@ nlohmann::ordered_json json_of(const std::vector<double>& sorted) {
   return {{"median", percentile(sorted, 50.0)}, {"p95", percentile(sorted, 95.0)}, {"max", sorted.back()}};
 }
 
-// Null where it is not known.
+// Null if the value is unknown.
 nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
   return value ? nlohmann::ordered_json(*value) : nullptr;
 }

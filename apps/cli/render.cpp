@@ -72,7 +72,7 @@ void run(const Common& common, const RenderFlags& flags) {
   require_near_origin(flags.poses, poses);
   if (method_preset(flags.method).view == ViewKind::sensor) throw InputError("--method", "rgbd has no map to render");
   OpenedView opened = open_view(common, flags.method, flags.map);
-  // Sixteen bits: a depth beyond their range is none, a sigma beyond it the largest.
+  // Written with 16 bits; a depth or sigma beyond their range becomes 0 (no value).
   constexpr double sigma_units = 10000.0;
   ViewRequest request;
   request.color = wanted.color;

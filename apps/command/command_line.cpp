@@ -20,10 +20,10 @@
 namespace odosplat::apps {
 namespace {
 
-// More than the largest machines have; a pool of 100 000 would end in the middle of being made.
+// More than the cores of large machines. The limit exists because creating, say, 100 000 threads would fail halfway.
 constexpr int most_threads = 1024;
 
-/// The command of that name below; null: there is none.
+/// The direct subcommand of that name; null if there is none.
 CLI::App* command_below(CLI::App& app, const std::string& name) {
   const auto found = app.get_subcommands([&](CLI::App* command) { return command->get_name() == name; });
   return found.empty() ? nullptr : found[0];
@@ -37,7 +37,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// "view map: " for a command, nothing for the program itself: how an error begins.
+/// Prefix of an error message: "view map: " for a command, empty for the program itself.
 std::string place(const CLI::App& command) {
   std::string names;
   for (const CLI::App* app = &command; app->get_parent() != nullptr; app = app->get_parent()) {
@@ -52,13 +52,13 @@ std::string how_to_list(const CLI::App& command) {
   return " (" + names + "--help lists them)";
 }
 
-/// The command that words name, with its own words behind it.
+/// A command and the words of the command line that follow its name.
 struct Chosen {
   CLI::App* command;
   std::vector<std::string> words;
 };
 
-/// Goes down from the program to the command that is meant.
+/// Descends through the subcommands that the words name.
 Chosen chosen_command(CLI::App& app, const std::vector<std::string>& words) {
   Chosen chosen{&app, words};
   while (!command_names(*chosen.command).empty() && !chosen.words.empty() && !chosen.words[0].starts_with('-')) {
@@ -88,7 +88,7 @@ std::string config_file(const std::vector<std::string>& words) {
   return "";
 }
 
-/// What is wrong with a word that no flag and no argument took.
+/// The error for a word that no flag and no argument has taken.
 InputError unknown_word(const CLI::App& command, const std::string& word) {
   if (!word.starts_with('-')) return InputError(place(command) + "takes no more arguments, there is " + word);
   std::vector<std::string> flags;
@@ -99,7 +99,7 @@ InputError unknown_word(const CLI::App& command, const std::string& word) {
   return InputError(place(command) + "no such flag " + flag + suggestion(nearest_name(flag, flags)));
 }
 
-/// What help calls the values of flags that take text. One list keeps them alike in all commands.
+/// Placeholder in the help for the value of each text flag, the same in all commands.
 const std::map<std::string, std::string>& value_words() {
   static const std::map<std::string, std::string> words{
       {"align", "NAME"},       {"anchor", "on|off"},    {"blend-order", "NAME"}, {"cache", "FOLDER"},
@@ -131,7 +131,7 @@ bool is_output(const std::string& flag) {
 
 using Options = std::vector<const CLI::Option*>;
 
-/// Those that carry values.
+/// The options given with values.
 Options given_options(const CLI::App& command) {
   Options given;
   for (const CLI::Option* option : command.get_options()) {
@@ -140,7 +140,7 @@ Options given_options(const CLI::App& command) {
   return given;
 }
 
-/// A shell variable that was never set, as a rule: nobody means the default by it.
+/// Refuses empty values: as a rule they come from an unset shell variable, not from the wish for the default.
 void check_not_empty(const Options& given) {
   for (const CLI::Option* option : given) {
     for (const std::string& value : option->results()) {
@@ -149,7 +149,8 @@ void check_not_empty(const Options& given) {
   }
 }
 
-/// No folder that is read is written into, and no file in it replaced: which of its files are read, the layout decides.
+/// Refuses to write into a folder that is read, or to replace a file in it: the layout decides which of its files are
+/// read, so any of them may be an input.
 void check_not_among_inputs(const std::string& output, const std::string& value, const std::string& folder) {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -168,8 +169,8 @@ void check_not_among_inputs(const std::string& output, const std::string& value,
   }
 }
 
-/// No file is written over one that the same command reads or writes: what a run needs would be gone after it, whatever
-/// comes of it.
+/// Refuses an output file that the same command also reads or writes under another flag: it would be overwritten,
+/// whether the run succeeds or fails.
 void check_outputs(const Options& given) {
   namespace fs = std::filesystem;
   const auto same = [](const std::string& a, const std::string& b) {
@@ -197,7 +198,7 @@ void check_outputs(const Options& given) {
   }
 }
 
-/// --device names one that is there, also where the command does not need any: a wish that cannot be met is an error.
+/// Checks that --device names an existing device, also for commands that do not use one.
 void check_device(const Common& common) {
   if (!common.device.empty()) compute::choose_device(compute::list_devices(), common.device);
 }
@@ -276,14 +277,14 @@ void parse_command_line(CLI::App& app, const std::vector<std::string>& words) {
       apply_config(*chosen.command, chosen.words, file);
     }
   }
-  // CLI11 takes words off the end.
+  // CLI11 takes the words from the end of the vector.
   std::vector<std::string> backwards(words.rbegin(), words.rend());
   try {
     app.parse(backwards);
   } catch (const CLI::Success&) {
     throw;
   } catch (const CLI::ParseError& e) {
-    // A misspelt flag is the cause where another fault (a missing flag) only follows from it.
+    // A misspelt flag is reported first, because it is the cause of other errors, such as a missing required flag.
     const std::vector<std::string> unknown = chosen.command->remaining();
     if (!unknown.empty()) throw unknown_word(*chosen.command, unknown[0]);
     if (!command_names(*chosen.command).empty()) {

@@ -13,12 +13,12 @@ class App;
 
 namespace odosplat::apps {
 
-/// Declares --version, every subcommand and how help looks.
+/// Declares --version, all subcommands and the format of the help.
 void declare_commands(CLI::App& app, Common& common);
 
-/// Reads the words of a command line (without the program's name), and --config if it is among them, and runs the
-/// command's callbacks. InputError of one line for a command or flag that does not exist (with the nearest one), for
-/// what a flag refuses, and for what is missing; CLI::Success for --help and --version.
+/// Parses the words of a command line (without the program's name) and the file of --config if given, and runs the
+/// command's callbacks. InputError of one line for an unknown command or flag (with the nearest name), for a value that
+/// a flag refuses, and for what is missing. CLI::Success for --help and --version.
 void parse_command_line(CLI::App& app, const std::vector<std::string>& words);
 
 /// What --version prints: version, compiler and build type, and the OpenCL devices.

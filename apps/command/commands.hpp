@@ -8,8 +8,8 @@ namespace CLI {
 class App;
 }  // namespace CLI
 
-/// The subcommands, a file each. Every add_X declares its flags on `app` and runs when it was chosen: bad input is an
-/// InputError, results go to standard output.
+/// The subcommands, one file each. Every add_X declares its command and flags on `app`; the command runs in its
+/// callback if it was chosen. Bad input is an InputError, results go to standard output.
 namespace odosplat::apps {
 
 /// Flags that every subcommand takes.

@@ -77,7 +77,7 @@ class Reader {
     }
   }
 
-  /// One part of a key or several with dots between them; empty where there is none.
+  /// A key of one or more parts separated by dots; empty if there is none.
   std::string key() {
     std::string whole;
     for (bool more = true; more;) {
@@ -99,7 +99,7 @@ class Reader {
     return whole;
   }
 
-  /// The name of a table; what follows belongs to it.
+  /// The name of a table; the entries that follow belong to it.
   std::string table() {
     take();
     if (next() == '[') fail("arrays of tables are not read");
@@ -184,7 +184,8 @@ class Reader {
     return value;
   }
 
-  /// What stands behind a backslash, but for its last character.
+  /// Appends the character that an escape stands for. On entry the character after the backslash is next; the escape's
+  /// last character is left for the caller to take.
   void append_escape(std::string& value) {
     constexpr std::string_view names = "btnfr\"\\";
     constexpr std::string_view meanings = "\b\t\n\f\r\"\\";
@@ -205,7 +206,7 @@ class Reader {
   const std::string& file_;
   std::string_view text_;
   std::size_t line_ = 1;
-  std::string table_;  // that entries belong to; empty: none
+  std::string table_;  // table of the current entries; empty: none
 };
 
 std::vector<std::string> flags_of(const CLI::App& command) {
@@ -234,7 +235,7 @@ void set_option(CLI::Option& option, const ConfigEntry& entry) {
   if (is_switch && (entry.is_array || (entry.values[0] != "true" && entry.values[0] != "false"))) {
     throw CLI::ValidationError("--" + entry.key, "must be true or false");
   }
-  // A flag that may be given several times takes an array, a value a time.
+  // A flag that may be given several times takes an array, one value for each time.
   const bool repeats = option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
   if (entry.is_array && option.get_items_expected_max() == 1 && !repeats) {
     throw CLI::ValidationError("--" + entry.key, "takes one value, not an array");
@@ -259,7 +260,7 @@ void apply_config(CLI::App& command, const std::vector<std::string>& words, cons
     const std::string line = "line " + std::to_string(entry.line);
     if (entry.key == "set") throw InputError(file, line, "set is for the command line; write NAME = VALUE");
     const std::string written = entry.key;
-    if (entry.key.find('.') != std::string::npos) {  // an option of the library, which --set takes
+    if (entry.key.find('.') != std::string::npos) {  // an option of the library: belongs to --set
       if (set_by(words, entry.key)) continue;
       if (command.get_option_no_throw("--set") == nullptr) {
         throw InputError(file, line, "unknown key " + entry.key + ": this command has no options to set");

@@ -21,10 +21,10 @@ std::size_t columns(const std::string& text) { return static_cast<std::size_t>(t
 
 bool is_switch(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
-/// "FILE", "N", "X ..." for what stands behind a flag.
+/// Placeholder for a flag's value: "FILE", "N", "X ...".
 std::string value_words(const CLI::Option& option) {
   if (is_switch(option)) return "";
-  // CLI11 adds the list of a set behind the type; the help says it in words.
+  // CLI11 appends the list of allowed values to the type; the help text already names them.
   std::string type = option.get_type_name();
   type = type.substr(0, type.find(":{"));
   const int least = option.get_items_expected_min();
@@ -67,7 +67,7 @@ std::string section(const std::string& title, const Options& options) {
   return text;
 }
 
-/// "odosplat view map" from the program down.
+/// The command's full name, such as "odosplat view map".
 std::string path_of(const CLI::App& app) {
   return app.get_parent() == nullptr ? app.get_name() : path_of(*app.get_parent()) + " " + app.get_name();
 }

@@ -10,15 +10,15 @@ namespace odosplat::apps {
 /// Group of the flags that every subcommand takes; help shows it last.
 inline constexpr const char* common_group = "Common flags";
 
-/// What --help prints, in lines of at most 80 columns: usage with everything that is required, arguments, the command's
-/// own flags (required ones first and marked), the common flags last; each with its default as a value.
+/// Text of --help in lines of at most 80 columns: usage with everything that is required, arguments, the command's own
+/// flags (required ones first and marked), the common flags last, each with its default value.
 class HelpText : public CLI::FormatterBase {
  public:
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
 };
 
-/// Text in lines of at most `width` columns, broken at blanks, each behind `indent` blanks; a word that is longer has a
-/// line of its own. Line ends in the text stay.
+/// Wraps text at blanks into lines of at most `width` columns, each indented by `indent` blanks. A longer word has a
+/// line of its own. Line ends in the text are kept.
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width);
 
 }  // namespace odosplat::apps

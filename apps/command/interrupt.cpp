@@ -25,12 +25,13 @@ sem_t interrupt_came;
 extern "C" void on_interrupt(int signal) {
   if (!interrupt_flag.exchange(true)) {
     sem_post(&interrupt_came);
-  } else if (signal != SIGHUP) {  // which comes several times when a terminal closes
+  } else if (signal != SIGHUP) {  // SIGHUP may come several times when a terminal closes
     std::_Exit(exit_interrupted);
   }
 }
 
-/// Ends what has not ended by itself: reading a large file or drawing a figure knows nothing of signals.
+/// Ends the process 0.5 s after an interrupt if it has not ended by itself, because some work (reading a large file,
+/// drawing a figure) does not check for interrupts.
 void end_when_interrupted() {
   constexpr auto patience = std::chrono::milliseconds(500);
   constexpr auto step = std::chrono::milliseconds(20);
@@ -52,7 +53,7 @@ void catch_interrupts() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   if (std::signal(SIGHUP, SIG_IGN) != SIG_IGN) std::signal(SIGHUP, on_interrupt);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is an error of writing, told like every other
+  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond the file size limit then fails with an error instead of a signal
 }
 
 bool interrupted() { return interrupt_flag; }

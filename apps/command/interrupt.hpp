@@ -4,13 +4,15 @@
 
 namespace odosplat::apps {
 
-/// Ctrl-C, SIGTERM and the end of the terminal (SIGHUP, unless it is ignored as under nohup) set a flag; long loops ask
-/// it. Outputs appear whole or not at all, so whatever has not ended 0.5 s later is ended here, with status 130, unless
-/// a SavesWhenInterrupted lives. A second Ctrl-C or SIGTERM ends the process at once.
+/// Makes Ctrl-C, SIGTERM and the end of the terminal (SIGHUP, unless it is ignored as under nohup) set a flag, which
+/// long loops check. A process that has not ended after 0.5 s is ended with status 130, unless a SavesWhenInterrupted
+/// exists; this is safe because outputs are written completely or not at all. A second Ctrl-C or SIGTERM ends the
+/// process at once.
 void catch_interrupts();
 bool interrupted();
 
-/// Lives while a command asks interrupted() often and then writes what it has so far.
+/// While an object exists, the process is not ended 0.5 s after an interrupt: the command checks interrupted() often
+/// and then saves its results.
 class SavesWhenInterrupted {
  public:
   SavesWhenInterrupted();

@@ -8,7 +8,8 @@
 namespace odosplat::apps {
 namespace {
 
-/// Damerau's distance: letters to add, drop, replace or swap with their neighbor, each place changed once.
+/// Damerau-Levenshtein distance: number of letters to insert, delete, replace or swap with their neighbour, where no
+/// letter is changed twice.
 std::size_t edits(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> least(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {
@@ -28,7 +29,7 @@ std::size_t edits(const std::string& a, const std::string& b) {
 
 std::string nearest_name(const std::string& word, const std::vector<std::string>& names) {
   std::string nearest;
-  // A word of megabytes is no misspelling.
+  // A limit on the time: nothing this long is a misspelt name.
   if (word.size() > 64) return nearest;
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& name : names) {

@@ -7,8 +7,8 @@
 
 namespace odosplat::apps {
 
-/// The name that was most likely meant: fewest letters to add, drop, replace or swap with their neighbor, at most a
-/// third of the word's; the first of equals. Empty where none is so near.
+/// The name with the smallest edit distance (letters inserted, deleted, replaced or swapped with their neighbour) from
+/// the word; the first of equals. Empty if the distance exceeds a third of the word's length (at least 1).
 std::string nearest_name(const std::string& word, const std::vector<std::string>& names);
 
 /// "; did you mean NAME?", or nothing for an empty name.

@@ -6,8 +6,9 @@
 
 namespace odosplat::apps {
 
-/// The run did what was asked and its result is worth nothing: under half of an estimate was matched, no frame was
-/// posed, or checked data are not shown to agree. The program says the reason in one line and ends with 3.
+/// The run was carried out, but its result is not usable: less than half of an estimate was matched, no frame got a
+/// pose, or a check found that the data disagree or could not decide. The program prints the reason in one line and exits
+/// with status 3.
 class NoResult : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

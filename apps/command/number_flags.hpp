@@ -12,9 +12,9 @@
 
 namespace odosplat::apps {
 
-/// What a flag with a number takes: least to most, both allowed unless least_excluded; never nan or an infinity.
-/// word: stands for the value `meaning` ("all" for 0 threads), or for no value of an optional one, on the command line
-/// and in help; null: there is none.
+/// Allowed values of a numeric flag: from least to most, both included unless least_excluded; never NaN or infinity.
+/// word: on the command line and in help, stands for the value `meaning` ("all" for 0 threads) or for the empty value
+/// of an optional number; null: no such word.
 template <typename T>
 struct Bounds {
   T least = std::numeric_limits<T>::lowest();
@@ -24,23 +24,23 @@ struct Bounds {
   T meaning{};
 };
 
-/// "an integer from 1 to 1024", "a number above 0", "all, or an integer from 0 to 1024".
+/// Description of the bounds: "an integer from 1 to 1024", "a number above 0", "all, or an integer from 0 to 1024".
 std::string words_for(const Bounds<std::int64_t>& bounds);
 std::string words_for(const Bounds<std::uint64_t>& bounds);
 std::string words_for(const Bounds<double>& bounds);
 
-/// The whole text as a number within the bounds; else CLI::ValidationError of one line: flag, range, text.
+/// Parses the whole text as a number within the bounds. Otherwise CLI::ValidationError of one line: flag, range, text.
 std::int64_t number_from(const std::string& flag, const std::string& text, const Bounds<std::int64_t>& bounds);
 std::uint64_t number_from(const std::string& flag, const std::string& text, const Bounds<std::uint64_t>& bounds);
 double number_from(const std::string& flag, const std::string& text, const Bounds<double>& bounds);
 
-/// As short as the number can be read back from.
+/// The shortest text that reads back as the same number.
 std::string number_text(double value);
 
-/// As many numbers as are given.
+/// For add_numbers: no upper limit on the count.
 inline constexpr int most_numbers = CLI::detail::expected_max_vector_size;
 
-/// Type name of the flags declared here; a test holds every numeric flag to it.
+/// Type name of the flags declared here; a test checks that every numeric flag has it.
 inline constexpr const char* number_type = "N";
 
 namespace detail {
@@ -72,7 +72,7 @@ std::string default_text(T value, const Bounds<T>& bounds) {
 
 }  // namespace detail
 
-/// Declares a flag with a number. What `value` holds is its default and shown in help.
+/// Declares a numeric flag. The current content of `value` is its default and shown in help.
 template <typename T>
 CLI::Option* add_number(CLI::App* command, const std::string& flag, T& value,
                         const Bounds<std::type_identity_t<T>>& bounds, const std::string& help) {
@@ -84,7 +84,7 @@ CLI::Option* add_number(CLI::App* command, const std::string& flag, T& value,
   return option->type_name(number_type)->default_str(detail::default_text<T>(value, bounds));
 }
 
-/// The same for a number that may be left open; bounds.word says what holds then.
+/// The same for an optional number; bounds.word is the default and stands for no value.
 template <typename T>
 CLI::Option* add_number(CLI::App* command, const std::string& flag, std::optional<T>& value,
                         const Bounds<std::type_identity_t<T>>& bounds, const std::string& help) {

@@ -49,7 +49,7 @@ void print(const char* format, ...) {
   const int size = std::vsnprintf(nullptr, 0, format, arguments);
   va_end(arguments);
   std::string text(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
-  // The terminating zero goes where the string keeps its own.
+  // vsnprintf() writes its terminating zero to the position where std::string has its own.
   std::vsnprintf(text.data(), text.size() + 1, format, again);
   va_end(again);
   const std::string shown = printable_text(text);

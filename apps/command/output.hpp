@@ -9,18 +9,18 @@
 
 namespace odosplat::apps {
 
-/// ensure_output_file for a flag that may be left out: nothing for an empty path.
+/// ensure_output_file for an optional flag: does nothing for an empty path.
 [[nodiscard]] MadeFolders ensure_output_if_given(const std::string& path);
 
-/// InputError unless the name ends in one of the extensions (".ply"), in letters of either size: whoever
-/// reads it tells the format by that.
+/// InputError unless the name ends in one of the extensions (".ply", in upper or lower case), since readers tell the
+/// format by the extension.
 void check_extension(const std::string& path, std::initializer_list<const char*> extensions);
 
-/// printf to standard output for results: the one way there. Text of files and names among the arguments is shown
-/// without control characters (core/terminal_text.hpp); line ends stay. InputError where it cannot be written.
+/// printf to standard output, for all results. Control characters in the text are escaped (printable_text); line ends
+/// are kept. InputError if it cannot be written.
 [[gnu::format(printf, 1, 2)]] void print(const char* format, ...);
 
-/// Writes out what waits in buffers; InputError where standard output did not take all of it (a full disk).
+/// Flushes standard output. InputError if not all of it could be written (a full disk).
 void finish_output();
 
 }  // namespace odosplat::apps

@@ -40,7 +40,7 @@ int run_program(CLI::App& app, int argc, char** argv) {
       app.exit(e);
     }
     finish_output();
-    // Whatever was written is whole; but whoever runs a list of commands wants that to stop, too.
+    // The command's output is complete, but the status must tell a script that runs several commands to stop.
     if (interrupted()) throw Interrupted();
     return 0;
   } catch (const InputError& e) {
@@ -54,7 +54,7 @@ int run_program(CLI::App& app, int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail(exit_internal, "there is too little memory");
   } catch (const std::exception& e) {
-    return fail(exit_internal, printable_text(e.what()));  // a compiler's log has lines
+    return fail(exit_internal, printable_text(e.what()));  // keeps line ends, for example of a compiler's log
   }
 }
 

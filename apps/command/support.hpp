@@ -10,16 +10,16 @@
 
 namespace odosplat::apps {
 
-/// Opens the device that was asked for and says which one it is on the log.
+/// Opens the selected device and logs its name.
 compute::Context open_device(const Common& common);
 
-/// With --profile: time of every stage and its kernels since the context was opened, on standard error.
+/// With --profile: prints the time of every stage and its kernels since the context was opened on standard error.
 void print_profile(const Common& common, const compute::Context& context);
 
 /// Largest resident size of this process so far [MB].
 double peak_memory_mb();
 
-/// [s] that all threads of this process have run so far.
+/// CPU time of all threads of this process so far [s].
 double cpu_seconds();
 
 /// "640x480" to width and height in 1..32768; InputError("FLAG", ...) otherwise.
@@ -29,7 +29,7 @@ struct Size {
 };
 Size parse_size(const std::string& flag, const std::string& text);
 
-/// Seconds since it was made.
+/// Measures seconds since its construction.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }

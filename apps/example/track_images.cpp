@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Localises a camera in a map of Gaussians, a line an image: time, pose of the camera in the map's frame, status.
+// Localises a camera in a map of Gaussians and prints one line per image: time, pose of the camera in the map's frame,
+// status.
 //   odosplat_example SOURCE camera.yaml map.ply tx ty tz qx qy qz qw
-// SOURCE is the number of a camera ("0"), a video file, or a folder's images as a pattern ("rgb/%06d.png"); the numbers
-// behind the map are the camera's pose at the first image [m]. Images must be free of lens distortion.
+// SOURCE is the number of a camera ("0"), a video file, or a pattern for the images of a folder ("rgb/%06d.png"). The
+// numbers after the map are the camera's pose at the first image [m]. Images must be free of lens distortion.
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -42,7 +43,7 @@ int run(const std::string& source, char** words) {
   const odosplat::compute::Context device = odosplat::compute::Context::open();
   odosplat::GaussianView map(device, odosplat::read_map(words[1]));
   odosplat::OdometryOptions options;
-  options.background = live;  // a camera does not wait; recorded images do, and give the same poses every time
+  options.background = live;  // a camera does not wait; recorded images do, so their poses are reproducible
   odosplat::Odometry odometry(camera.camera, map, options, T_world_camera_start);
 
   const double fps = camera.fps > 0.0 ? camera.fps : 30.0;

@@ -15,14 +15,14 @@ inline constexpr const char* cloud_formats = "point cloud (PLY, PCD, LAS, or tex
 inline constexpr const char* outliers_help =
     "drop points whose mean distance to their 8 nearest is over 3 standard deviations above the cloud's mean";
 
-/// Reads clouds one after another and thins them to one point a voxel [m] of edge on the way, each point less origin
-/// [m]: memory goes with the thinned cloud. Interrupted after Ctrl-C.
+/// Reads clouds one after another and thins them while reading to one point per voxel of edge `voxel` [m]. origin [m]
+/// is subtracted from each point. The memory needed depends on the thinned cloud only. Throws Interrupted after Ctrl-C.
 PointCloud read_thinned(const std::vector<std::string>& files, double voxel, const Eigen::Vector3d& origin);
 
-/// The same for one file, unless voxel is 0: then the cloud as it is; and without outliers if wanted.
+/// Reads one cloud, thinned as above unless voxel is 0, and without outliers if drop_outliers is true.
 PointCloud read_cloud(const std::string& file, double voxel, bool drop_outliers);
 
-/// Statistical outlier removal with its defaults, which outliers_help names; says on the log how many went.
+/// Statistical outlier removal with its defaults, which outliers_help names; logs the number of removed points.
 PointCloud without_outliers(const PointCloud& cloud);
 
 }  // namespace odosplat::apps

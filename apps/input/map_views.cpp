@@ -47,7 +47,7 @@ std::vector<Eigen::Vector3f> positions(const Gaussians& gaussians) {
   return points;
 }
 
-/// `values` of the rows that are kept, `width` values a row.
+/// Keeps only the given rows of `values`, which has `width` values per row.
 void keep_rows(std::vector<float>& values, const std::vector<std::size_t>& rows, std::size_t width) {
   std::vector<float> kept;
   kept.reserve(rows.size() * width);
@@ -179,7 +179,7 @@ MapPoints read_map_points(const MapFlags& flags) {
   const Gaussians g = read_map(flags.map).gaussians;
   const auto stride = static_cast<std::size_t>(3 * g.coefficients());
   for (std::size_t i = 0; i < g.size(); ++i) {
-    // What is almost transparent is not part of the picture.
+    // Almost transparent Gaussians are not drawn.
     if (g.opacity_logits[i] < -2.0F) continue;
     const Eigen::Map<const Eigen::Vector3f> log_scale(&g.log_scales[3 * i]);
     const float* q = &g.rotations[4 * i];

@@ -21,15 +21,15 @@ class App;
 
 namespace odosplat::apps {
 
-/// Where a method's map comes from.
+/// Files that a method's map is read from.
 struct MapFlags {
   std::string map{};           // of Gaussians
   std::string cloud{};         // point cloud
-  std::string depth{};         // of Gaussians: surface, expected, median, blended; empty: the method's
-  std::string without_half{};  // "+x", "-x", ... "-z": the half of the map on that side is left out; empty: all of it
+  std::string depth{};         // depth mode of Gaussians: surface, expected, median, blended; empty: the method's
+  std::string without_half{};  // "+x", "-x", ... "-z": the half of the map on that side is left out; empty: none
 };
 
-/// One of the two halves of a map: what lies beyond the median of its points along an axis.
+/// One half of a map: all that lies beyond the median of its points along an axis.
 struct MapHalf {
   Eigen::Index axis;
   float sign;
@@ -41,7 +41,7 @@ MapHalf map_half(const MapFlags& flags, const std::string& side);
 
 void add_map_flags(CLI::App* command, MapFlags& flags);
 
-/// Noise that the depth of method rgbd gets before use.
+/// Noise that is added to the depth images of method rgbd.
 struct DepthNoiseFlags {
   std::string model = "none";  // or kinect
   std::uint64_t seed = 1;
@@ -50,28 +50,29 @@ struct DepthNoiseFlags {
 /// Declares --depth-noise.
 void add_depth_noise_flag(CLI::App* command, DepthNoiseFlags& flags);
 
-/// A map behind the interface that the odometry knows, with the device it runs on if it needs one.
+/// A map as a MapView for the odometry, with the device it runs on if it needs one.
 struct OpenedView {
   std::unique_ptr<MapView> view;
   std::optional<compute::Context> device;
   SensorView* sensor = nullptr;  // method rgbd; else null
   std::optional<KinectOptions> depth_noise;
 
-  /// To be called before a frame is tracked or judged: method rgbd shows its depth image, with noise if asked for. A
-  /// map is what it is whatever the frame: nothing happens.
+  /// To be called before a frame is tracked or evaluated: for method rgbd, sets the frame's depth image, with noise if
+  /// requested. Does nothing for maps, which do not depend on the frame.
   void show_frame(const Sequence& sequence, std::size_t i);
 };
 
-/// The map that the method's preset names: Gaussians of --map, --cloud interpolated or as surfels, or the sequence's
-/// own depth images. InputError for another word or a file that the method needs and was not given.
+/// Opens the map that the method's preset needs: the Gaussians of --map, the cloud of --cloud (interpolated or as
+/// surfels), or the sequence's depth images. InputError for an unknown method or a required file that is not given.
 OpenedView open_view(const Common& common, const std::string& method, const MapFlags& flags,
                      const DepthNoiseFlags& noise = {});
 
-/// Tells of flags that the method makes nothing of: InputError for --depth and --depth-noise, which somebody expects
-/// other results from; a warning for --cloud beside a map, and for a map that is not of the method's own training.
+/// Checks for flags that the method does not use: InputError for --depth and --depth-noise, which would be expected to
+/// change the results; a warning for --cloud in addition to a map, and for a map that was not trained with the method's
+/// preset.
 void check_flags_of_method(const std::string& method, const MapFlags& flags, const DepthNoiseFlags& noise = {});
 
-/// What the figures draw: the Gaussians' discs if there is a map, else the points of the cloud.
+/// What the figures draw: the Gaussians as discs if there is a map, otherwise the points of the cloud.
 MapPoints read_map_points(const MapFlags& flags);
 
 }  // namespace odosplat::apps

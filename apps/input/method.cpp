@@ -37,11 +37,13 @@ const MethodPreset& method_preset(const std::string& name) {
 OdometryOptions odometry_options(const MethodPreset& preset, std::optional<bool> anchor) {
   OdometryOptions options;
   options.keyframe.anchor.enabled = anchor.value_or(preset.anchor);
-  // The methods that we compare with are taken as they are, anchored or not.
+  // Confirmation belongs to method gaussian only: the methods for comparison are run as published, whatever --anchor
+  // says.
   options.confirmation.enabled = preset.anchor;
   options.keyframe.window_points.depth_use = preset.depth_use;
-  // Without an anchor, what a keyframe leaves behind holds the window to its own drift wherever depth moves with its
-  // keyframe (docs/rules.md). With planes of the world it would pay; one rule for all keeps the rows comparable.
+  // Without an anchor, the marginal prior of removed keyframes keeps the window at its accumulated drift if points move
+  // with their keyframe (docs/rules.md). It would help methods whose planes are fixed in the world, but is off for all
+  // of them, to keep the methods comparable.
   options.marginalization.enabled = options.keyframe.anchor.enabled;
   return options;
 }

@@ -11,32 +11,33 @@
 
 namespace odosplat::apps {
 
-/// What a method looks at for depth.
+/// Source of depth of a method.
 enum class ViewKind { gaussians, interpolation, surfels, sensor };
 
-/// A way of localising that has a name: where depth comes from, and what the odometry does with it.
+/// A named method: its source of depth and how the odometry uses it.
 struct MethodPreset {
   const char* name;
   ViewKind view;
   DepthMode depth_mode;  // of Gaussians
-  bool anchor;           // keyframes are aligned with the map's rendered colours
-  DepthUse depth_use;    // what the window makes of the depth
+  bool anchor;           // align keyframes with the map's rendered colours
+  DepthUse depth_use;    // how the window uses the depth
 };
 
-/// gaussian       ours: Gaussians, depth by ray planes as a measurement in the planes of the world, anchor
-/// paper          the paper's: Gaussians, blended depth as search interval of +-20 %, then free, no anchor
-/// interpolation  the paper's ablation: the same with depth interpolated in the cloud (DEMO)
-/// surfel         DSL (Ye, Huang, Liu 2020): surfels of the cloud, coplanarity (planes of the world), no anchor
-/// rgbd           RGBD-DSO (Yuan et al. 2021): the sensor's depth starts a point and does not hold it, no anchor
+/// Name, source of depth, use of the depth in the window, anchor:
+/// gaussian       this project's: Gaussians, depth by ray planes; prior that keeps the planes in the world; anchor
+/// paper          the paper's: Gaussians, blended depth; search interval of +-20 %, then free; no anchor
+/// interpolation  the paper's ablation (DEMO): depth interpolated in the cloud; otherwise as paper
+/// surfel         DSL (Ye, Huang, Liu 2020): surfels of the cloud; coplanarity (planes fixed in the world); no anchor
+/// rgbd           RGBD-DSO (Yuan et al. 2021): the sensor's depth; as initial value without prior; no anchor
 const std::vector<MethodPreset>& method_presets();
 
 /// InputError that lists the names if there is none of that name.
 const MethodPreset& method_preset(const std::string& name);
 
-/// "gaussian, paper, ... or rgbd", for help and errors.
+/// "gaussian, paper, ... or rgbd", for help and error messages.
 std::string method_names();
 
-/// The preset's options, with the anchor as the user wants it if he says so.
+/// Options of the preset, with the anchor switched on or off if `anchor` has a value.
 OdometryOptions odometry_options(const MethodPreset& preset, std::optional<bool> anchor);
 
 }  // namespace odosplat::apps

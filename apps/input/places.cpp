@@ -17,7 +17,7 @@
 namespace odosplat::apps {
 namespace {
 
-/// The 2nd and the 98th percentile of a coordinate: stray points do not count.
+/// The 2nd and the 98th percentile of a coordinate, so that outliers do not matter.
 std::array<float, 2> extent(const std::vector<Eigen::Vector3f>& points, Eigen::Index axis) {
   std::vector<float> values;
   values.reserve(points.size());

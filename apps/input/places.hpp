@@ -14,15 +14,15 @@ namespace odosplat::apps {
 inline constexpr const char* places_help =
     "trajectory of views to look for the camera from (default: where the map says it was seen from)";
 
-/// Poses from which a map can be looked at to find a camera in it (T_world_camera): those of the trajectory `file` if
-/// one is given, thinned; else where the map's training images were taken, as its file says; else samples of the space
-/// around its points (sampled_places). Says on the log which.
+/// Poses from which the relocaliser looks for the camera in a map (T_world_camera): those of the trajectory `file` if
+/// given, thinned; otherwise the poses of the training images, as stored in the map file; otherwise samples of the
+/// space around the map's points (sampled_places, with a log message).
 std::vector<SE3> places_of(const MapFlags& flags, const std::string& file);
 
-/// Poses in a map of which nothing is known but its points [m, world]: a grid of 1 m at mid-height of the box around
-/// the points, each looking level in 12 directions; those within 0.3 m of a point are left out. The shortest side of
-/// the box is taken for the vertical; up is -y in a world that has y vertical (the cameras' own convention), else +z or
-/// +x. Weaker than poses that a camera had.
+/// Sampled poses in a map of which only the points are known [m, world]: a grid of 1 m at mid-height of the points'
+/// bounding box, each with 12 level viewing directions; positions within 0.3 m of a point are left out. The shortest
+/// side of the box is taken as vertical; up is -y if y is vertical (the cameras' convention), otherwise +z or +x. Less
+/// reliable than poses that a camera had.
 std::vector<SE3> sampled_places(const std::vector<Eigen::Vector3f>& points_world);
 
 }  // namespace odosplat::apps

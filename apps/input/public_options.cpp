@@ -18,7 +18,7 @@ namespace {
 using Options = TunedOptions;
 using Field = std::variant<int*, float*, double*>;
 
-// As short as the value of that type can be read back from.
+// The shortest text that reads back as the same value of that type.
 template <typename T>
 std::string text_of(T value) {
   char text[40];
@@ -235,7 +235,7 @@ void add_set_flag(CLI::App* command, std::vector<std::string>& settings, const s
             try {
               OptionValues({setting}, groups);
             } catch (const InputError& e) {
-              const std::string fault = e.what();  // the parser names the flag itself
+              const std::string fault = e.what();  // the parser adds the flag's name itself
               return fault.substr(std::string("--set: ").size());
             }
             return "";

@@ -27,10 +27,10 @@ struct TunedOptions {
   InitializeOptions start;
 };
 
-/// One option: the only place that knows its name, unit, range and meaning. `odosplat options`, docs/options.md, --set
-/// and --config are made from these rows.
+/// One option. Its row is the only place that defines its name, unit, range and meaning: `odosplat options`,
+/// docs/options.md, --set and --config are generated from the rows.
 struct PublicOption {
-  std::string name;  // "odometry.window.keyframes"; what stands before the first dot is its group
+  std::string name;  // "odometry.window.keyframes"; the part before the first dot is its group
   std::string unit;  // "" for shares and counts
   double least = 0.0;
   double most = 0.0;
@@ -39,18 +39,19 @@ struct PublicOption {
 
   std::string group() const { return name.substr(0, name.find('.')); }
   bool is_whole() const;
-  /// The default, as it is printed; the same as text of a value that was set.
+  /// The default as text. Values that were set are formatted in the same way.
   std::string default_text() const;
 };
 
 const std::vector<PublicOption>& public_options();
 
-/// Values that a user gave for options of some groups.
+/// Values given by the user for options of some groups.
 class OptionValues {
  public:
   OptionValues() = default;
-  /// settings: "NAME=VALUE" each; groups: those that the command uses. InputError naming the option: unknown (with the
-  /// nearest name), of another command, given twice, not a number, not whole, out of range.
+  /// settings: "NAME=VALUE" each; groups: those that the command uses. InputError naming the option if it is unknown
+  /// (with the nearest name), belongs to another command, is given twice, or its value is not a number, not whole or
+  /// out of range.
   OptionValues(const std::vector<std::string>& settings, const std::vector<std::string>& groups);
 
   void apply(OdometryOptions& options) const;
@@ -58,7 +59,7 @@ class OptionValues {
   void apply(TrainerOptions& options) const;
   void apply(InitializeOptions& options) const;
   bool has(const std::string& group) const;
-  /// Names and values as text, in the order in which they were given.
+  /// Names and values as text, in the order given.
   std::vector<std::pair<std::string, std::string>> items() const;
 
  private:

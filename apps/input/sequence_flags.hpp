@@ -16,7 +16,7 @@ class Option;
 
 namespace odosplat::apps {
 
-/// SEQ and the flags that say how to read it.
+/// A sequence (SEQ) and the flags that say how to read it.
 struct SequenceFlags {
   std::string path;
   SequenceOptions options;
@@ -25,7 +25,7 @@ struct SequenceFlags {
 /// Declares SEQ (returned), --layout, --camera and --max-image-pixels.
 CLI::Option* add_sequence_flags(CLI::App* command, SequenceFlags& flags);
 
-/// The same but SEQ, where the sequence has a flag of its own.
+/// The same flags without SEQ, for commands that give the sequence by a flag of their own.
 void add_layout_flags(CLI::App* command, SequenceFlags& flags);
 
 /// --max-image-pixels alone.
@@ -39,14 +39,14 @@ struct FrameRange {
   std::size_t end = std::numeric_limits<std::size_t>::max();
 };
 
-/// "A:B" to frames A to B - 1; A or B may be missing: from the first, to the last. InputError for anything else, and
+/// Parses "A:B" as frames A to B - 1. Without A from the first, without B to the last. InputError for other text, and
 /// for a range without frames.
 FrameRange parse_frames(const std::string& text);
 
-/// Help of a flag that takes such a range.
+/// Help text of a flag that takes such a range.
 inline constexpr const char* frames_help = "A:B: only frames A to B - 1, counted from 0 (default: all)";
 
-/// Of frames 0, N, 2N, ... those that lie in the range and have a pose; InputError if there is none.
+/// Those of the frames 0, N, 2N, ... that lie in the range and have a pose; InputError if there are none.
 std::vector<std::size_t> posed_frames(const Sequence& sequence, int every, const FrameRange& range = {});
 
 }  // namespace odosplat::apps

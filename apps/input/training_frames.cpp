@@ -16,7 +16,7 @@ namespace odosplat::apps {
 namespace {
 
 constexpr const char* line_begins = "training_frames";
-constexpr std::size_t usual_every = 10;  // of train --every
+constexpr std::size_t usual_every = 10;  // default of train --every
 
 /// Frames begin, begin + every, ... before end, counted from 0; begin is a multiple of every.
 struct Progression {
@@ -32,9 +32,9 @@ struct Progression {
 };
 
 struct Header {
-  bool speaks = false;                 // of the frames that were trained on
-  std::string sequences;               // that it names
-  std::vector<Progression> of_this{};  // of the sequence in question
+  bool speaks = false;                 // whether it names training frames
+  std::string sequences;               // all sequences that it names
+  std::vector<Progression> of_this{};  // training frames of the given sequence
 };
 
 Header read_header(const std::string& map, const Sequence& sequence) {

@@ -15,7 +15,7 @@
 namespace odosplat::apps {
 namespace {
 
-constexpr double rounding = 1e-6;  // [s] of stamps with six decimals
+constexpr double rounding = 1e-6;  // [s] of time stamps with six decimals
 
 struct Truth {
   PoseFile file;
@@ -61,7 +61,7 @@ Truth read_truth(const TruthFlags& flags) {
   return {read_pose_file(flags.sequence.path, flags.times), {}, {}};
 }
 
-/// Poses without times that are as many as the images are those of the images, in their order.
+/// Gives poses without times the times of the sequence's images, in order, if their number is the same.
 void take_times_of_frames(const std::string& name, const std::vector<double>& times, PoseFile& file) {
   const std::size_t count = file.poses.size() + file.times_without_pose.size();
   if (file.stamps != StampKind::line_numbers || times.empty() || count != times.size()) return;
@@ -73,7 +73,7 @@ void take_times_of_frames(const std::string& name, const std::vector<double>& ti
   file.stamps = StampKind::times;
 }
 
-// Times of the first and the last image in the table that `track` writes beside its trajectory.
+// Times of the first and the last image in status.csv, which `track` writes beside its trajectory.
 std::optional<TimeSpan> span_of_run(const std::string& estimate) {
   std::ifstream table(std::filesystem::path(estimate).parent_path() / "status.csv");
   std::string line;

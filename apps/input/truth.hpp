@@ -18,7 +18,7 @@ namespace odosplat::apps {
 
 /// --truth and the flags that say how to read it.
 struct TruthFlags {
-  SequenceFlags sequence;  // its path may be a file of poses
+  SequenceFlags sequence;  // the path may also be a file of poses
   std::string times;
   std::string frames;
 };
@@ -26,18 +26,19 @@ struct TruthFlags {
 /// Declares --truth (returned), --truth-times, --layout, --camera and --frames.
 CLI::Option* add_truth_flags(CLI::App* command, TruthFlags& flags);
 
-/// An estimated and a true trajectory whose stamps can be compared.
+/// An estimated and a true trajectory with comparable time stamps.
 struct JudgedTrajectory {
   Trajectory estimate;
   Trajectory truth;              // empty without --truth
-  std::optional<TimeSpan> span;  // of the images that were to be posed; none: not known
+  std::optional<TimeSpan> span;  // of the images that should have poses; none: unknown
 };
 
-/// Reads EST and the truth: a file of poses, or a sequence in any layout, whose poses are those that `track` answers
-/// with (reflected where fy is negative), every one that the data set gives, of the images in --frames if that is
-/// given. The span is that of the sequence's images, and of status.csv beside EST, which `track` writes for the images
-/// that it was given. InputError if the sequence has no poses there, if --frames comes without a sequence, or as
-/// require_comparable_stamps says.
+/// Reads EST and the truth. The truth is a file of poses, or a sequence in any layout. The poses of a sequence are in
+/// the convention in which `track` writes its poses (reflected where fy is negative); all poses of the data set are
+/// used, or those in the time range of the images of --frames if that is given. The span is the intersection of the
+/// span of the sequence's images and that in status.csv beside EST, which `track` writes; one of them if the other is
+/// unknown. InputError if the sequence has no poses there, if --frames is given without a sequence, or for time stamps
+/// that require_comparable_stamps refuses.
 JudgedTrajectory read_judged(const std::string& estimate, const std::string& estimate_times, const TruthFlags& truth);
 
 }  // namespace odosplat::apps

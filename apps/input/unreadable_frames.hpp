@@ -7,7 +7,7 @@
 
 namespace odosplat::apps {
 
-/// Frames of a sequence that cannot be read: one damaged file of many is no reason to do nothing with the others.
+/// Collects frames of a sequence that cannot be read, so that one damaged file does not prevent the use of the others.
 class UnreadableFrames {
  public:
   void add(const std::string& fault) {
@@ -15,8 +15,8 @@ class UnreadableFrames {
   }
   std::size_t count() const { return count_; }
 
-  /// At the end: nothing if there are none, InputError if all `frames` are such, else one warning that they are left
-  /// out.
+  /// To be called at the end. Does nothing if all frames are readable; InputError if none of `frames` is; otherwise one
+  /// warning that the unreadable ones are left out.
   void report(std::size_t frames) const;
 
  private:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The odosplat authors
 # fingerprint.sh ODOSPLAT OUT SEQ...: SHA-256 of what the program computes on the demo's room and on a short run of each
-# sequence (cloud, map of 300 steps, 100 frames tracked in it). A change that must not alter results is run before and
-# after: the two lists are the same. Times, which differ from run to run, are left out.
+# sequence (cloud, map of 300 steps, 100 frames tracked in it). To check that a change does not alter results, run this
+# before and after it: the two lists must be the same. Times are left out, as they differ between runs.
 set -euo pipefail
 program=$1 out=$2
 shift 2

@@ -60,7 +60,8 @@ Judged judge(const Run& run) { return judge(run, 0, run.frames.size()); }
 
 double normalised_error_squared(const SE3& T_world_camera, const SE3& T_world_camera_true, const Matrix6d& covariance) {
   const Vector6d xi = (T_world_camera_true * T_world_camera.inverse()).log();
-  // Metres and radians about a far origin span many decades: scaled to ones on the diagonal before it is inverted.
+  // The variances of metres and radians may differ by many orders of magnitude: the matrix is scaled to a unit diagonal
+  // before it is factorised.
   const Vector6d scale = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   if (!(scale.minCoeff() > 0.0)) return std::numeric_limits<double>::infinity();
   const Vector6d inverse = scale.cwiseInverse();

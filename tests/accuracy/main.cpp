@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// How well the odometry does where it is hard: runs on sequences with true poses, judged here; nothing of the truth but
-// the first pose is told to the odometry.
+// Accuracy of the odometry under difficult conditions: runs on sequences with true poses, which are used for
+// evaluation; of the truth the odometry gets only the first pose.
 #include <CLI/CLI.hpp>
 
 #include "apps/command/run_program.hpp"

@@ -47,7 +47,7 @@ void Output::add(const Row& row) {
   for (const Row::Cell& cell : row.cells_) {
     columns.push_back(cell.column);
     values[cell.column] = cell.value;
-    // Names of sets and scenarios are to the left, figures to the right.
+    // Text columns are aligned to the left, numbers to the right.
     const bool left = cell.value.is_string();
     const int width = std::max(left ? 20 : narrowest, static_cast<int>(cell.column.size()));
     char text[128];

@@ -10,14 +10,14 @@
 
 namespace odosplat::accuracy {
 
-/// One row of a table: cells with the name of their column, which holds the unit ("ate_mm").
+/// One row of a table: cells with the names of their columns, which contain the unit ("ate_mm").
 class Row {
  public:
   Row& text(const std::string& column, const std::string& value);
   Row& count(const std::string& column, long value);
-  /// Shown with that many decimals, kept whole in the JSON; "-" and null where it is not finite.
+  /// Printed with this number of decimals, at full precision in the JSON; "-" and null if it is not finite.
   Row& number(const std::string& column, double value, int decimals);
-  /// Shown as yes or no.
+  /// Printed as yes or no.
   Row& flag(const std::string& column, bool value);
 
  private:
@@ -30,8 +30,8 @@ class Row {
   std::vector<Cell> cells_;
 };
 
-/// Where results go: rows to standard output as they come, under a line of column names wherever those change; with
-/// --json all rows, and with --trace the frames of all runs, to files when write() is called.
+/// Output of results: rows are printed to standard output as they are added, below a line of column names whenever
+/// these change. write() writes all rows to the file of --json, and the frames of all runs to that of --trace.
 class Output {
  public:
   /// InputError if a file cannot be written there.
@@ -44,12 +44,12 @@ class Output {
  private:
   std::string json_file_;
   std::string trace_file_;
-  std::vector<std::string> columns_;  // of the table that is being printed
+  std::vector<std::string> columns_;  // of the table being printed
   nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
   std::string trace_;
 };
 
-/// The cells that all tables have in common: set, what was run, lost, errors.
+/// The cells common to all tables: data set, scenario, lost frames, errors.
 Row row_of(const World& world, const std::string& scenario, const Judged& judged);
 
 }  // namespace odosplat::accuracy

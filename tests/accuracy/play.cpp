@@ -36,7 +36,7 @@ Script in_order(const World& world, std::size_t begin, std::size_t end,
 Run play(const World& world, MapView& map, SensorView* sensor, const apps::TrackJob& job, const Script& script,
          const SE3& T_world_camera_start, const std::string& label, const Camera& told, const OptionEdit& edit) {
   Run run;
-  run.frames.resize(script.size());  // before the odometry: its memory is looked at
+  run.frames.resize(script.size());  // allocated before the odometry, whose memory use is measured
   const Localiser localiser = make_localiser(told, map, sensor != nullptr, job, T_world_camera_start, edit);
   Odometry& odometry = *localiser.odometry;
   Progress progress(label, static_cast<long>(script.size()));

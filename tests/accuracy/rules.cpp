@@ -4,7 +4,7 @@
 
 namespace odosplat::accuracy {
 namespace {
-constexpr double never = 1e6;  // a threshold that nothing reaches
+constexpr double never = 1e6;  // a threshold that no value reaches
 
 void switch_off(ResidualWeightOptions& options) {
   options.noise = never;

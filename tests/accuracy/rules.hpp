@@ -8,12 +8,12 @@
 
 namespace odosplat::accuracy {
 
-/// A rule of the odometry that can be switched off, to see what it is worth.
+/// A rule of the odometry that can be switched off, to measure its benefit.
 struct Rule {
   const char* name;
   OptionEdit off;
-  // Factor of the images' grey values while the rule is off. Below 1 it keeps pixels from counting as clipped, for
-  // which there is no option.
+  // Factor of the images' grey values while the rule is off. A factor below 1 switches off the detection of clipped
+  // pixels, for which there is no option.
   double gain = 1.0;
 };
 

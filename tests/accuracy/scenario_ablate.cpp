@@ -26,12 +26,12 @@ struct AblateFlags {
   int seeds = 3;
 };
 
-/// What is compared of a run: lower is better, for all of it.
+/// The compared measures of a run; for all of them lower is better.
 struct Figures {
   double ate_mm = 0.0;
   double lost = 0.0;
-  double wrong = 0.0;  // in the map by the odometry's word, and plainly wrong
-  double nees = 0.0;   // mean normalised error squared
+  double wrong = 0.0;  // frames reported as tracked in the map with a wrong pose, as defined by RecoveryBars
+  double nees = 0.0;   // mean squared normalised error
   double cpu_ms = 0.0;
 };
 
@@ -58,15 +58,15 @@ double median_of(const std::vector<Figures>& runs, double Figures::*figure) {
   return upper_median(values);
 }
 
-/// Largest less smallest.
+/// Largest minus smallest value.
 double spread_of(const std::vector<Figures>& runs, double Figures::*figure) {
   const auto [least, most] = std::minmax_element(
       runs.begin(), runs.end(), [figure](const Figures& a, const Figures& b) { return a.*figure < b.*figure; });
   return (*most).*figure - (*least).*figure;
 }
 
-/// A rule's row: the medians with it off, and whether it pays: without it more frames are lost or wrong, or the error
-/// grows by more than both spreads.
+/// A rule's row: the medians of runs without it, and whether it pays: without it more frames are lost or wrong, or the
+/// ATE grows by more than the larger of both spreads.
 Row row_without(const World& world, const std::string& under, const std::string& rule, const std::vector<Figures>& off,
                 const std::vector<Figures>& on) {
   const double ate_off = median_of(off, &Figures::ate_mm);
@@ -88,7 +88,7 @@ Row row_without(const World& world, const std::string& under, const std::string&
       .flag("pays", pays);
 }
 
-/// One condition: every rule in turn, with every seed.
+/// Runs one condition: for every seed with all rules, then without each of the rules.
 void ablate(const apps::Common& common, const World& world, const AblateFlags& flags, const std::string& under,
             Output& out) {
   std::vector<const Rule*> chosen;

@@ -21,7 +21,7 @@
 namespace odosplat::accuracy {
 namespace {
 
-constexpr double smoothing = 0.8;  // [px] as the odometry's
+constexpr double smoothing = 0.8;  // [px] as in the odometry
 
 struct ConfirmFlags {
   Job job;
@@ -31,16 +31,16 @@ struct ConfirmFlags {
 
 enum class Truth { right, near, wrong };
 
-/// Image and assumed pose, compared.
+/// Result of comparing an image with the map at an assumed pose.
 struct Pair {
   Truth truth = Truth::right;
   MapEvidence evidence;
 };
 
-/// Pairs by what was done to them.
+/// Pairs by kind of disturbance.
 using Pairs = std::map<std::string, std::vector<Pair>>;
 
-/// The map seen from one place, and images compared with it.
+/// A view of the map from one pose, with which images are compared.
 class Place {
  public:
   Place(const Camera& camera, MapView& map, const SE3& T_world_camera, Pairs& pairs)
@@ -54,14 +54,14 @@ class Place {
     reference_ = build_reference(rendered_, build_gradients(rendered_), view_.images, selector, {}, {}, &weak);
   }
 
-  /// The image at a pose that is known.
+  /// Compares an image at a known pose relative to the place.
   void compare(const std::string& kind, Truth truth, const GrayImage& image, const SE3& T_place_camera = {}) {
     const FramePyramid pyramid = build_frame_pyramid(camera_, image, smoothing);
     pairs_[kind].push_back({truth, patches_.compare(pyramid, view_.T_world_camera * T_place_camera)});
   }
 
-  /// The image where it fits best near this place, as tracking, a start or a look-up would put it. Nothing where it
-  /// fits nowhere.
+  /// Compares an image at the pose near this place where it fits best, as found by tracking, start or look-up. Nothing
+  /// is added if the alignment fails everywhere.
   void align(const std::string& kind, const GrayImage& image) {
     if (reference_.empty()) return;
     const FramePyramid pyramid = build_frame_pyramid(camera_, image, smoothing);
@@ -139,8 +139,8 @@ void report_kinds(const World& world, const Pairs& all, Output& out) {
   }
 }
 
-/// Precision and recall where the probability that confirms is another one. Poses that are nearly right count as
-/// neither.
+/// Precision and recall for different thresholds of the probability for confirmation. Pairs with nearly right poses are
+/// ignored.
 void report_curve(const World& world, const Pairs& all, Output& out) {
   for (const double least : {0.01, 0.1, 0.5, 0.9, 0.99, 0.999, 0.99999}) {
     long right = 0;

@@ -22,20 +22,20 @@ namespace {
 struct DeceiveFlags {
   Job job;
   std::vector<std::string> others;  // sequences of other places
-  std::vector<std::string> only;    // names of deceptions, all if empty
+  std::vector<std::string> only;    // substrings of names of deceptions, all if empty
   std::size_t frames = 60;
 };
 
-/// A run in which the odometry is told something wrong.
+/// A run with wrong input to the odometry.
 struct Deception {
   std::string name;
   Script script;
   SE3 T_world_camera_start;
-  double focal_factor = 1.0;                         // of the camera that the odometry is told of
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();  // [px] added to its principal point
+  double focal_factor = 1.0;                         // applied to the focal lengths given to the odometry
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();  // [px] added to the principal point given to it
 };
 
-/// Another sequence's images at this camera's size; they go round.
+/// Another sequence's images at this camera's size, repeated cyclically.
 std::function<GrayImage(std::size_t n)> images_of(const Sequence& other, const Camera& camera) {
   return [other, camera](std::size_t n) { return resized_gray(other.gray(n % other.size()), camera); };
 }
@@ -45,14 +45,14 @@ class Deceptions {
   Deceptions(const World& world, const DeceiveFlags& flags)
       : world_(world), frames_(std::min(flags.frames, world.size())), seed_(flags.job.track.seed) {}
 
-  /// Every image is made from the world's, from the true start; blind: none of the world is left in it.
+  /// Edits every image of the world, with the true start pose. blind: the result shows nothing of the world.
   void edited(const std::string& name, bool blind, const std::function<ImageEdit(std::size_t)>& edit) {
     Script script = in_order(world_, 0, frames_, edit);
     for (Step& step : script) step.blind = blind;
     all.push_back({name, std::move(script), world_.T_world_camera(0)});
   }
 
-  /// The world's frames at regular times in an order of their own.
+  /// The given frames of the world at regular times.
   void ordered(const std::string& name, const std::vector<std::size_t>& frames) {
     Script script;
     const double interval = world_.time(1) - world_.time(0);
@@ -105,7 +105,7 @@ std::vector<std::size_t> random_order(std::size_t size, std::size_t frames, std:
   return order;
 }
 
-/// There and back again, some seconds on each side.
+/// Alternates between the sequence's beginning and its middle after every `stay` frames.
 std::vector<std::size_t> back_and_forth(std::size_t size, std::size_t frames, std::size_t stay) {
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < frames; ++k) {
@@ -163,14 +163,14 @@ std::vector<Deception> deceptions(const World& world, const DeceiveFlags& flags)
   return d.all;
 }
 
-/// What a deception made of the poses. A blind frame has no right pose.
+/// Effect of a deception on the poses. A blind frame has no correct pose.
 struct Harm {
   int frames = 0;
   int posed = 0;
   int in_map = 0;
-  int wrong = 0;         // in the map and plainly wrong, or blind
-  int wrong_beyond = 0;  // the same, not in the map
-  double worst_m = 0.0;  // of the poses in the map that are not blind
+  int wrong = 0;         // poses in the map with a large error, or of blind frames
+  int wrong_beyond = 0;  // the same for poses not in the map
+  double worst_m = 0.0;  // largest error of poses in the map, without blind frames
   double mean_nees = 0.0;
 };
 

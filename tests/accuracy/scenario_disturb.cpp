@@ -16,10 +16,10 @@
 namespace odosplat::accuracy {
 namespace {
 
-// Of the bars.
+// Limits for passing: ATE relative to the undisturbed run, and share of lost frames.
 constexpr double max_ratio = 2.0;
 constexpr double max_lost_share = 0.02;
-// Frames after which a wrong start must have been mended.
+// Number of frames after which a wrong start pose must be corrected.
 constexpr std::size_t start_frames = 30;
 
 struct DisturbFlags {
@@ -31,7 +31,7 @@ struct DisturbFlags {
   double start_deg = 5.0;
 };
 
-/// The true pose, off by the given distance and angle in directions that depend on the seed.
+/// The true pose, disturbed by the given distance and angle in directions that depend on the seed.
 SE3 wrong_start(const SE3& T_world_camera, const DisturbFlags& flags, std::uint64_t seed) {
   Random random(seed);
   const auto direction = [&random] {
@@ -42,7 +42,7 @@ SE3 wrong_start(const SE3& T_world_camera, const DisturbFlags& flags, std::uint6
   return T_world_camera * SE3(so3_exp(rotation), translation);
 }
 
-/// A row against the undisturbed run's, both judged over the same frames.
+/// A row that compares a run with the undisturbed one, both evaluated over the same frames.
 Row compared(const World& world, const std::string& name, const Judged& judged, const Judged& plain) {
   const double ratio = plain.ate_m.rmse > 0.0 && judged.ate_m.count > 0 ? judged.ate_m.rmse / plain.ate_m.rmse
                                                                         : std::numeric_limits<double>::infinity();
@@ -53,7 +53,7 @@ Row compared(const World& world, const std::string& name, const Judged& judged, 
       .flag("pass", ratio <= max_ratio && judged.lost_share() <= max_lost_share);
 }
 
-/// Starts beside the true pose, each judged behind its first frames.
+/// Runs with start poses near the true one, each evaluated after its first frames.
 void run_starts(const World& world, apps::OpenedView& opened, const DisturbFlags& flags, const Run& plain,
                 Output& out) {
   const std::size_t end = std::min(world.size(), std::size_t{150});

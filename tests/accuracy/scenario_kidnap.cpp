@@ -18,7 +18,7 @@ namespace {
 
 struct KidnapFlags {
   Job job;
-  std::string other;  // sequence that is cut in; empty: no such run
+  std::string other;  // sequence whose images are inserted; empty: no such run
   std::size_t cut = 60;
   std::size_t black = 150;
   std::size_t hand = 30;
@@ -26,15 +26,15 @@ struct KidnapFlags {
   double bar_mm = 20.0;
 };
 
-/// What happens between two steps of a script.
+/// A script that is disturbed between two steps.
 struct Kidnapping {
   std::string name;
   Script script;
   std::size_t begin = 0;  // first disturbed step
-  std::size_t end = 0;    // first step behind
+  std::size_t end = 0;    // first step after the disturbance
 };
 
-/// Frames cut out of the middle: to the odometry the camera is elsewhere from one frame to the next.
+/// Leaves out frames in the middle, so that the camera jumps from one frame to the next.
 Kidnapping cut_out(const World& world, std::size_t frames) {
   const std::size_t begin = (world.size() - frames) / 2;
   Kidnapping k{std::to_string(frames) + " frames cut out", in_order(world, 0, begin), begin, begin};
@@ -43,7 +43,7 @@ Kidnapping cut_out(const World& world, std::size_t frames) {
   return k;
 }
 
-/// Frames in the middle whose images show something else.
+/// Replaces the images of frames in the middle.
 Kidnapping replaced(const World& world, const std::string& name, std::size_t frames,
                     const std::function<GrayImage(std::size_t n)>& image) {
   const std::size_t begin = (world.size() - frames) / 2;
@@ -56,7 +56,7 @@ Kidnapping replaced(const World& world, const std::string& name, std::size_t fra
 }
 
 std::vector<Kidnapping> kidnappings(const World& world, const KidnapFlags& flags) {
-  // Short sequences keep a third of their frames on either side.
+  // In short sequences a third of the frames on either side is kept.
   const auto fitting = [&world](std::size_t frames) { return std::min(frames, world.size() / 3); };
   const Camera camera = world.camera();
   std::vector<Kidnapping> all{

@@ -16,8 +16,8 @@ namespace {
 
 struct LeaveMapFlags {
   Job job;
-  double outside = 0.1;  // share of the image with map depth below which the camera is outside
-  double inside = 0.4;   // the same above which it has re-entered
+  double outside = 0.1;  // the camera is outside if less than this share of the image has map depth
+  double inside = 0.4;   // and inside again if at least this share has
   double bar_mm = 5.0;
 };
 
@@ -30,7 +30,7 @@ Script there_and_back(const World& world) {
   return script;
 }
 
-/// Share of each frame's image where the map has depth, seen from the true pose at half the size.
+/// For each frame the share of the image with map depth, rendered from the true pose at half the size.
 std::vector<double> map_shares(const World& world, MapView& map) {
   const Camera camera = world.camera().level(1);
   std::vector<double> shares;
@@ -42,7 +42,7 @@ std::vector<double> map_shares(const World& world, MapView& map) {
   return shares;
 }
 
-/// Steps between leaving the map and being back in it.
+/// Steps from leaving the map to re-entering it.
 struct Excursion {
   std::size_t left = 0;      // first step outside
   std::size_t returned = 0;  // first step inside again; the run's size if never
@@ -64,7 +64,7 @@ std::vector<Excursion> excursions(const Script& script, const std::vector<double
   return found;
 }
 
-/// Largest error of the live poses of some steps [mm], infinite if there are none.
+/// Largest position error of the live poses of some steps [mm], infinite if there are none.
 double largest_error_mm(const Run& run, std::size_t begin, std::size_t end) {
   const Judged judged = judge(run, begin, end);
   return judged.live_ate_m.count > 0 ? 1000.0 * judged.live_ate_m.max : std::numeric_limits<double>::infinity();

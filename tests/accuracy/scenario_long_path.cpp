@@ -12,7 +12,7 @@
 namespace odosplat::accuracy {
 namespace {
 
-/// Forward, backward, forward ...; the frame at which it turns is played once. Times go on evenly.
+/// Forward, backward, forward ...; the frame at a turning point is played once. Times are equally spaced.
 Script back_and_forth(const World& world, int passes) {
   Script script;
   for (int pass = 0; pass < passes; ++pass) {

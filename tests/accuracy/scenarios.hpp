@@ -8,7 +8,7 @@ namespace CLI {
 class App;
 }  // namespace CLI
 
-/// The scenarios, a file each. Every add_X declares its command on `app` and runs when it was chosen.
+/// The scenarios, one file each. Every add_X declares its command on `app`, which runs the scenario if it was chosen.
 namespace odosplat::accuracy {
 
 void add_plain(CLI::App& app, apps::Common& common);

@@ -19,18 +19,18 @@ class App;
 
 namespace odosplat::accuracy {
 
-/// What every scenario is given: a sequence with true poses, a map, and how they are read.
+/// Input of every scenario: a sequence with true poses, a map, and how they are read.
 struct Job {
   apps::TrackJob track;  // sequence, method, map, anchor, seed
-  std::string frames;    // "A:B" of the sequence; empty: all
-  std::string json;      // file for the rows; empty: none
-  std::string trace;     // file (CSV) for every frame of every run; empty: none
+  std::string frames;    // "A:B", range of the sequence; empty: all
+  std::string json;      // output file for the rows; empty: none
+  std::string trace;     // output file (CSV) for every frame of every run; empty: none
 };
 
 /// Declares the flags of Job on a scenario's command.
 void add_job_flags(CLI::App* command, Job& job);
 
-/// The frames in question of a sequence with true poses. Frames count from 0 at the first of them.
+/// The selected frames of a sequence with true poses. Frames are counted from the first of them.
 class World {
  public:
   /// InputError if a frame has no true pose, or if there are fewer than two frames.
@@ -55,16 +55,17 @@ class World {
   std::size_t size_ = 0;
 };
 
-/// The odometry that scenarios judge, with what it looks lost frames up by (null for a sensor, which has no places).
+/// The odometry under test and its relocaliser (null for a sensor, which has no places).
 struct Localiser {
   std::unique_ptr<Relocalizer> relocalizer;
   std::unique_ptr<Odometry> odometry;
 };
 
-/// Changes the options that a job gives; empty: none.
+/// Changes the options that a job specifies; empty: no change.
 using OptionEdit = std::function<void(OdometryOptions&)>;
 
-/// The one place that makes it. map must outlive it; sensor: map shows the depth images of a sensor.
+/// The only function of these tests that creates it. map must outlive it; sensor: map shows the depth images of a
+/// sensor.
 Localiser make_localiser(const Camera& camera, MapView& map, bool sensor, const apps::TrackJob& job,
                          const SE3& T_world_camera_start, const OptionEdit& edit = {});
 

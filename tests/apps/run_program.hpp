@@ -9,7 +9,7 @@
 
 namespace odosplat::apps_test {
 
-/// What a run of the program left: its exit status (128 + n after signal n), standard output and standard error.
+/// Result of running a program: exit status (128 + n after signal n), standard output and standard error.
 struct RunResult {
   int status = -1;
   std::string out;
@@ -22,12 +22,12 @@ RunResult run_program(const std::string& program, const std::vector<std::string>
 /// The same with the odosplat program of this build.
 RunResult run_odosplat(const std::vector<std::string>& arguments);
 
-/// The same, but sends the signal as soon as `ready` says so, unless the program has ended before. `ready` is asked
+/// The same, but sends the signal when `ready` returns true, unless the program has ended before. `ready` is called
 /// every few milliseconds.
 RunResult run_odosplat_and_signal(const std::vector<std::string>& arguments, int signal,
                                   const std::function<bool()>& ready);
 
-/// A folder of its own for a test, removed at the end.
+/// A temporary folder for a test, removed at the end.
 class ScratchFolder {
  public:
   ScratchFolder();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Posed images of another frame and scale, brought into a cloud's frame as a user does it.
+// Posed images in a frame and scale of their own, aligned with a cloud by the command.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ using testing::HasSubstr;
 
 class Align : public testing::Test {
  protected:
-  // The tiny sequence as COLMAP would give it: poses and points in a frame and a unit of their own.
+  // The tiny sequence as a COLMAP model: poses and points in another frame and another unit.
   void SetUp() override {
     write_tiny_sequence(sequence_, 24);
     ASSERT_EQ(run_odosplat({"cloud", sequence_, "--every", "4", "--voxel", "0.03", "--out", cloud_}).status, 0);
@@ -52,7 +52,7 @@ class Align : public testing::Test {
     return {T.rotation(), T.translation() / truth_.scale};
   }
 
-  // 75 points that the depth image shows, with noise; every tenth is anywhere.
+  // 75 points of the depth image, with noise; every tenth is at a random place.
   void add_points(const Sequence& s, std::size_t i, Random& random, PointCloud& points) const {
     const DepthImage depth = s.depth(i);
     for (int k = 0; k < 75; ++k) {
@@ -81,7 +81,7 @@ class Align : public testing::Test {
     EXPECT_FALSE(fs::exists(out_ + "/transform.txt"));
   }
 
-  // The cameras come back to where they were: the points' noise of 5 mm over 1600 of them leaves millimetres.
+  // Compares the cameras with the original ones: with noise of 5 mm on 1600 points errors of millimetres remain.
   void expect_aligned() const {
     const Sequence aligned = Sequence::open(out_);
     const Sequence s = Sequence::open(sequence_);
@@ -107,7 +107,7 @@ class Align : public testing::Test {
 };
 
 TEST_F(Align, FromAGuessAndOnToTraining) {
-  // Off by 5 % in scale, 6 degrees about the origin and 5 cm.
+  // Wrong by 5 % in scale, 6 degrees of rotation about the origin and 5 cm.
   const Similarity guess{1.05 * truth_.scale,
                          SE3::exp((Vector6d() << 0.03, 0.04, 0, 0.06, 0, -0.08).finished()) * truth_.T_target_source};
   const RunResult result = align({"--guess", similarity_text(guess)});
@@ -130,7 +130,7 @@ TEST_F(Align, FromPairs) {
   for (const Eigen::Vector3d& p :
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(4, 0, 0), Eigen::Vector3d(0, 3, 0), Eigen::Vector3d(4, 3, 2.5)}) {
     const Eigen::Vector3d q = back * p / truth_.scale;
-    // Picked by hand: to about 5 cm.
+    // Rounded like points picked by hand, to about 5 cm.
     for (const double v : {q.x(), q.y(), q.z()}) pairs += std::to_string(std::round(10.0 * v) / 10.0) + " ";
     for (const double v : {p.x(), p.y(), p.z()}) pairs += std::to_string(v) + " ";
     pairs += "\n";
@@ -142,7 +142,7 @@ TEST_F(Align, FromPairs) {
 }
 
 TEST_F(Align, TakesPointsFromAFile) {
-  // The aligned sequence has no points of its own; those of the model, and where it came from, bring it back.
+  // The model's points are moved to a file: without them the alignment is refused, with --points it succeeds.
   PointCloud points = Sequence::open(colmap_).sparse_points();
   write_point_cloud(scratch_ / "points.ply", points);
   fs::remove(colmap_ + "/sparse/0/points3D.txt");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Bad input as a user meets it: one line that names the file and the fault, exit 2, nothing half-written.
+// Bad input to the program: one line that names the file and the fault, exit status 2, no incomplete output.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,13 +34,13 @@ class BadInput : public testing::Test {
     write_text(cloud_, std::string(ply_header) + "1 1 1\n2 1 1\n1 2 1\n");
   }
 
-  // Runs, and holds the run against the contract. `out`: what must not be there afterwards.
+  // Runs the program and checks that it refuses the input as required. `out`: must not exist afterwards.
   void expect_refused(const std::vector<std::string>& words, const std::string& file, const std::string& fault,
                       const fs::path& out = {}) {
     const RunResult result = run_odosplat(words);
     SCOPED_TRACE(testing::PrintToString(words));
     EXPECT_EQ(result.status, 2) << result.err;
-    // Logs may come before; the error is the last line and the only one of the program's own.
+    // Log lines may come before the error, which must be the last line and the only one that begins with "odosplat: ".
     const std::size_t start = result.err.find("odosplat: ");
     ASSERT_NE(start, std::string::npos) << result.err;
     const std::string line = result.err.substr(start);
@@ -56,7 +56,7 @@ class BadInput : public testing::Test {
     const std::string out = scratch_ / "never.ply";
     expect_refused({"cloud", sequence_, "--every", "1", "--out", out}, file, fault, out);
   }
-  // Frames that cannot be used are left out, with a warning that names the file.
+  // Checks that an unusable frame is left out, with a warning that names the file.
   void expect_cloud_without(const std::string& file, const std::string& fault) {
     const std::string out = scratch_ / "some.ply";
     const RunResult result = run_odosplat({"cloud", sequence_, "--every", "1", "--out", out});
@@ -117,7 +117,7 @@ TEST_F(BadInput, TruncatedPly) {
 }
 
 TEST_F(BadInput, MapWithoutGaussians) {
-  // A cloud is no map, and a map of no Gaussians is none either.
+  // A cloud is not a map; neither is a file with 0 Gaussians.
   expect_refused({"track", sequence_, "--map", cloud_, "--out", scratch_ / "run"}, "cloud.ply", "");
   std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex 0\n";
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0",
@@ -199,7 +199,7 @@ TEST_F(BadInput, CoordinatesOfASurvey) {
   expect_refused({"view", "map", "--cloud", cloud_, "--poses", far, "--out", scratch_ / "m.png"}, "far.txt", fault,
                  scratch_ / "m.png");
   expect_refused(with_surfels({"relocalise", sequence_, "--places", far}), "far.txt", fault);
-  // The sequence's own poses: stamps are taken from rgb.txt.
+  // The sequence's own poses, with the time stamps of rgb.txt.
   std::string truth;
   std::istringstream lines(read_text(sequence_ + "/rgb.txt"));
   for (std::string line; std::getline(lines, line);) {
@@ -222,7 +222,7 @@ TEST_F(BadInput, UnknownDevice) {
 }
 
 TEST_F(BadInput, OutputThatCannotBeWritten) {
-  // Below a regular file there is no folder, whoever asks (root too).
+  // A path below a regular file cannot be created by any user, not even root.
   const std::string below = sequence_ + "/rgb.txt/x";
   expect_refused({"cloud", sequence_, "--out", below + ".ply"}, "rgb.txt", "cannot be written");
   expect_refused({"track", sequence_, "--method", "interpolation", "--cloud", cloud_, "--out", below}, "rgb.txt",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// The chain from posed images and a cloud to a judged trajectory, as a user runs it: one program call after another.
+// The steps from posed images and a cloud to an evaluated trajectory, as separate program calls.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -137,7 +137,7 @@ TEST_F(Chain, StartsAnywhere) {
   EXPECT_LT(ate(run), 0.01);
   EXPECT_THAT(read_text(run + "/status.csv"), HasSubstr(",relocalised,1,"));
   EXPECT_EQ(nlohmann::json::parse(read_text(run + "/report.json"))["relocalisations"], 1);
-  // Poses for a map that does not remember its own.
+  // --places is needed for a map that does not store its training poses.
   const std::string foreign = scratch_ / "foreign.ply";
   write_text(foreign, without_lines(read_text(map_), "comment training_view"));
   EXPECT_THAT(read_text(foreign), testing::Not(HasSubstr("training_view")));
@@ -242,7 +242,7 @@ TEST_F(Chain, RendersAndDraws) {
     EXPECT_TRUE(fs::exists(out + "/" + kind + "/000000.png")) << kind;
     EXPECT_TRUE(fs::exists(out + "/" + kind + "/000039.png")) << kind;
   }
-  // Depth of the map against the sequence's own, in the units of camera.yaml.
+  // Compares the map's rendered depth with the sequence's, in the units of camera.yaml.
   const cv::Mat1w rendered = read_depth_raw(out + "/depth/000003.png");
   const cv::Mat1w truth = read_depth_raw(sequence_ + "/depth/0003.png");
   std::vector<int> differences;
@@ -307,7 +307,7 @@ TEST_F(Chain, ChecksWithACloudInPlaceOfDepth) {
   const RunResult without = run_odosplat({"check", sequence_});
   EXPECT_EQ(without.status, 2);
   EXPECT_THAT(without.err, HasSubstr("--cloud"));
-  // Poses the wrong way round, as many tools write them.
+  // Inverted poses, as written by many tools.
   Trajectory truth = read_trajectory(sequence_ + "/groundtruth.txt");
   for (StampedPose& pose : truth) pose.T_world_camera = pose.T_world_camera.inverse();
   write_trajectory(sequence_ + "/groundtruth.txt", truth);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Clouds and maps of other formats, as a user brings them: convert, cloud --from, train --voxel.
+// Clouds and maps in other formats as input: convert, cloud --from, train --voxel.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ class Clouds : public testing::Test {
   std::string log_;
 };
 
-// Two Gaussians, the larger one first, as web viewers' files have them.
+// Two Gaussians, the larger one first, which is the order in .splat files.
 std::string splat_text() {
   std::string bytes;
   for (const float size : {0.5F, 0.25F}) {
@@ -62,7 +62,7 @@ TEST_F(Clouds, ConvertMapsThereAndBack) {
   EXPECT_THAT(read_text(ply), HasSubstr("element vertex 2"));
   must_run({"convert", ply, back});
   EXPECT_EQ(read_text(back), splat_text());
-  // A map as an input of other commands.
+  // The .splat file as input of another command.
   must_run({"view", "map", "--map", splat, "--out", scratch_ / "m.png", "--size", "200x150"});
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// `eval` and `view trajectory` on what other people's files and folders hold.
+// `eval` and `view trajectory` on files and folders of other programs and data sets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,12 +26,12 @@ using testing::HasSubstr;
 constexpr int frames = 24;
 const std::string camera_yaml = "width: 16\nheight: 12\nfx: 20\nfy: 21\ncx: 7.5\ncy: 5.5\ndepth_scale: 1000\n";
 
-// Of frame k, in the world in which `track` answers.
+// Pose of frame k, in the world frame of the poses that `track` writes.
 SE3 pose_of(int k) {
   const double s = 0.1 * k;
   return {so3_exp({0.05 * s, 0.3 * s, -0.1 * s}), Eigen::Vector3d(s, 0.5 * std::sin(s), 0.2 * s * s)};
 }
-// F T F with F = diag(1, -1, 1), from its matrix.
+// F T F with F = diag(1, -1, 1), as a pose.
 SE3 mirrored(const SE3& T) {
   const Eigen::Matrix4d F = Eigen::Vector4d(1, -1, 1, 1).asDiagonal();
   const Eigen::Matrix4d M = F * T.matrix() * F;
@@ -47,7 +47,7 @@ std::string numbers(const std::vector<double>& values, const std::string& betwee
   }
   return text;
 }
-// The first rows of the matrix; every fourth number is followed by `end`.
+// The first `count` rows of the pose's matrix; every fourth number is followed by `end`.
 std::string rows(const SE3& T, int count, const std::string& end) {
   std::string text;
   for (int r = 0; r < count; ++r) {
@@ -64,7 +64,8 @@ std::string tum(const std::string& stamp, const SE3& T) {
 
 class Eval : public testing::Test {
  protected:
-  // Poses of `count` frames from `first` on, moved by 1 cm along x, as `track` writes them for that rate.
+  // A file of poses of `count` frames from `first` on, moved by 1 cm along x. Times begin at `start` [s] and are
+  // written with `per_second` units per second.
   std::string estimate(int first = 0, int count = frames, double per_second = 1.0, double start = 0.0) {
     std::string text;
     for (int k = first; k < first + count; ++k) {
@@ -172,7 +173,7 @@ TEST_F(Eval, TakesASequenceInEveryLayout) {
     put_image("colmap/images/" + id + ".png", k);
     put_image("nerf/images/" + id + ".png", k);
   }
-  // In another order than that of the names, as these programs write them.
+  // Listed in another order than that of the names, as these programs do.
   for (int j = 0; j < frames; ++j) {
     const int k = (7 * j) % frames;
     const SE3 T = pose_of(k).inverse();
@@ -200,7 +201,7 @@ TEST_F(Eval, TakesASequenceInEveryLayout) {
     expect_all_matched(scratch_ / name);
   }
 
-  // Some of the frames.
+  // An estimate of only some of the frames.
   RunResult run = eval(estimate(6, 6), scratch_ / "icl");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(report()["coverage_estimate"], 1.0);

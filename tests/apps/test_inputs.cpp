@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Ways of playing the same images: in real time, from a folder, from a video, and through the library.
+// Different ways to read the same images: in real time, from a folder, from a video, and by the library.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -99,7 +99,8 @@ TEST_F(Inputs, InRealTimeEveryFrameIsTrackedOrCountedAsDropped) {
 
 TEST_F(Inputs, EveryPosedFrameHasACovariance) {
   const std::string out = scratch_ / "run";
-  // Depth that is measured: with depth that only starts a point (the method's own way) nothing would tell scale.
+  // The depth is used as a measurement: if it is only an initial value, as this method does by default, the scale is
+  // unobservable.
   must_run({"track", sequence_, "--method", "interpolation", "--cloud", cloud_, "--out", out, "--depth-use",
             "pose_aware_prior"});
   const auto lines = lines_of(read_text(out + "/covariance.csv"));
@@ -165,7 +166,7 @@ TEST_F(Inputs, TheExampleGivesTheProgramsPoses) {
     const std::vector<double> row = numbers_of(lines[k]);
     ASSERT_EQ(row.size(), 8U) << lines[k];
     EXPECT_NE(lines[k].find(" ok"), std::string::npos);
-    // Its grey values are rounded to 8 bits.
+    // the video's grey values are rounded to 8 bits
     EXPECT_LT((Eigen::Vector3d(row[1], row[2], row[3]) - live[k].T_world_camera.translation()).norm(), 0.003) << k;
   }
   EXPECT_EQ(run_program(test::example(), {"0"}).status, 2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Every command that takes long ends within a second of Ctrl-C, and leaves no half-written file.
+// Every long command ends within a second after Ctrl-C and leaves no incomplete file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ class InterruptedCommands : public testing::Test {
     ASSERT_EQ(run_odosplat({"train", sequence_, "--every", "3", "--cloud", cloud_, "--iterations", "20", "--out", map_})
                   .status,
               0);
-    // The sequence's path, there and back for hours; as places to look from, no two of them near each other.
+    // Poses: the sequence's path, repeated for many minutes. Places: no two of them near each other.
     const Trajectory truth = read_trajectory(sequence_ + "/groundtruth.txt");
     Trajectory poses;
     Trajectory places;
@@ -46,7 +46,7 @@ class InterruptedCommands : public testing::Test {
     write_trajectory(places_, places);
   }
 
-  /// Ctrl-C a second after the start, by which time the command is at work.
+  /// Sends Ctrl-C a second after the start, when the command is working.
   void expect_to_end(const std::vector<std::string>& words) {
     SCOPED_TRACE(testing::PrintToString(words));
     const Clock::time_point start = Clock::now();
@@ -57,7 +57,7 @@ class InterruptedCommands : public testing::Test {
     });
     EXPECT_EQ(run.status, 130) << run.err;
     EXPECT_THAT(run.err, testing::HasSubstr("interrupted"));
-    // A second; the rest is for a machine that does other work.
+    // The requirement is one second; the rest allows for other load of the machine.
     EXPECT_LT(seconds_since(signalled), 3.0);
     for (const auto& entry : fs::recursive_directory_iterator(scratch_.path())) {
       EXPECT_NE(entry.path().extension(), ".part") << entry.path();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Files that cannot be read and runs that end early take no more with them than they must.
+// Unreadable files and runs that end early lose no more of the results than necessary.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ TEST_F(LostWork, ADamagedImageIsALostFrame) {
         run_odosplat(track(realtime ? std::vector<std::string>{"--realtime"} : std::vector<std::string>{}));
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("frame 12 is lost: " + image("rgb", 12)));
-    if (realtime) continue;  // in which frames are dropped as time has it
+    if (realtime) continue;  // there the dropped frames depend on timing
     EXPECT_THAT(run.err, HasSubstr("3 of 30 frames cannot be read"));
     const std::vector<std::string> rows = status();
     ASSERT_EQ(rows.size(), frames + 1U);
@@ -138,7 +138,7 @@ TEST_F(LostWork, AMissingImageIsALostFrame) {
   EXPECT_THAT(run.err, HasSubstr("1 of 30 frames cannot be read"));
 }
 
-/// The images again with half a minute between them, from the second on.
+/// Rewrites the list of images with a pause of half a minute before frame 20.
 void slow_down(const std::string& sequence, int frames) {
   std::string list;
   for (int k = 0; k < frames; ++k) {
@@ -163,7 +163,7 @@ TEST_F(LostWork, RealTimeHearsSignalsBetweenFramesAndKeepsWhatItHas) {
   std::snprintf(start, sizeof(start), "%.9f %.9f %.9f %.9f %.9f %.9f %.9f", t.x(), t.y(), t.z(), q.x(), q.y(), q.z(),
                 q.w());
   words[7] = start;
-  // The results so far are written now and then: the first are there long before the pause is over.
+  // The results so far are written every few seconds, so the first are there before the pause ends.
   const auto written = [&] { return std::filesystem::exists(out_ + "/report.json"); };
   using Clock = std::chrono::steady_clock;
   Clock::time_point signalled;

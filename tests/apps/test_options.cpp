@@ -77,7 +77,7 @@ TEST(Options, EachHasItsOwnNameAndField) {
   }
 }
 
-// The range in the table is one that the library accepts, and --set changes this field and no other.
+// The library accepts the whole range in the table, and --set changes only this field.
 TEST(Options, ValuesOfTheWholeRangeAreTaken) {
   for (const PublicOption& option : public_options()) {
     for (const double value : {option.least, option.most}) {
@@ -97,7 +97,7 @@ TEST(Options, ValuesOfTheWholeRangeAreTaken) {
   }
 }
 
-// What each name means, once more by hand: a row that is bound to another field fails.
+// The fields by name, written a second time: a row that is bound to another field fails.
 TEST(Options, NamesAreBoundToTheirFields) {
   TunedOptions o;
   const std::map<std::string, const void*> expected{
@@ -140,7 +140,7 @@ TEST(Options, NamesAreBoundToTheirFields) {
   }
 }
 
-// What reports say was set is what was used.
+// Reports contain exactly the values that were used.
 TEST(Options, ValuesAreRecordedAsTheyAre) {
   const OptionValues values({"odometry.align.noise=0.0196078431", "train.start.opacity=0.1"}, all_groups);
   EXPECT_EQ(values.items()[0].second, "0.0196078431");
@@ -205,7 +205,7 @@ TEST(Options, AreSeenByTheCommands) {
   EXPECT_NE(read_text(scratch / "run/covariance.csv"), read_text(scratch / "set/covariance.csv"));
   EXPECT_THAT(read_text(scratch / "set/report.json"), HasSubstr("\"odometry.covariance.frame\": 9.0"));
 
-  // A file of flags says the same, by a table or by a dotted key; the command line wins.
+  // A file of flags, with a table or a dotted key, has the same effect; the command line takes precedence.
   write_text(scratch / "flags.toml", "seed = 3141592\n[odometry.covariance]\nframe = 9\n");
   ASSERT_EQ(track("file", {"--config", scratch / "flags.toml"}).status, 0);
   EXPECT_EQ(read_text(scratch / "file/covariance.csv"), read_text(scratch / "set/covariance.csv"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Playing by stamps: pauses, stamps in other units, a stop while waiting.
+// Playing by time stamps: pauses, stamps in other units, a stop while waiting.
 #include "apps/cli/track/playback.hpp"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ class PlaybackTest : public testing::Test {
  protected:
   PlaybackTest() { apps_test::write_tiny_sequence(scratch_ / "seq", 24); }
 
-  /// The images with these stamps.
+  /// A sequence of images with these time stamps.
   Sequence sequence(const std::vector<std::string>& stamps) const {
     std::string list;
     for (std::size_t i = 0; i < stamps.size(); ++i) list += stamps[i] + " rgb/000" + std::to_string(i) + ".png\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Runs of train that are stopped, taken up again, or given what training must refuse.
+// Runs of train that are stopped and resumed, or that must be refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ TEST_F(Training, KeepsTheCheckpointOfAnEarlierRun) {
   EXPECT_FALSE(fs::exists(map + ".checkpoint"));
 }
 
-// What a program gets from the library is what the command writes.
+// A program that uses the library gets the same map that the command writes.
 TEST_F(Training, TheLibraryMakesTheSameMap) {
   const std::string map = scratch_ / "map.ply";
   ASSERT_EQ(run_odosplat(words(map)).status, 0);
@@ -81,7 +81,7 @@ TEST_F(Training, TheLibraryMakesTheSameMap) {
   EXPECT_EQ(made.map.header.sigma->spread, written.header.sigma->spread);
   EXPECT_EQ(made.map.header.rasterizer.order, written.header.rasterizer.order);
   EXPECT_EQ(made.training.iterations, 120);
-  // The command knows the frames besides, and how many steps are usual.
+  // Only the command knows the training frames and the usual number of steps.
   std::vector<std::string> notes = written.header.notes;
   std::erase_if(notes, [](const std::string& note) {
     return note.starts_with("training_frames ") || note.starts_with("quality_verdict ");
@@ -89,13 +89,13 @@ TEST_F(Training, TheLibraryMakesTheSameMap) {
   std::vector<std::string> library_notes = made.map.header.notes;
   std::erase_if(library_notes, [](const std::string& note) { return note.starts_with("quality_verdict "); });
   EXPECT_EQ(library_notes, notes);
-  // And it can be looked at as it comes, and written.
+  // The map can be used directly and written.
   write_map(scratch_ / "again.ply", made.map);
   EXPECT_EQ(read_map(scratch_ / "again.ply").gaussians.opacity_logits, made.map.gaussians.opacity_logits);
   EXPECT_EQ(GaussianView(compute::Context::open(), made.map).name(), "gaussian");
 }
 
-// Random shapes and colours of the paper's recipe: the seeds are the command's.
+// The random shapes and colours of the paper's preset: the library uses the same seeds as the command.
 TEST_F(Training, TheLibraryMakesTheSameMapByThePapersRecipe) {
   const std::string map = scratch_ / "map.ply";
   ASSERT_EQ(run_odosplat(words(map, {"--preset", "paper", "--budget", "2000"})).status, 0);
@@ -123,7 +123,7 @@ TEST_F(Training, KilledRunsEndWithTheSameBits) {
   int kills = 0;
   RunResult last;
   for (int attempt = 0; attempt < 5; ++attempt) {
-    // Once a newer checkpoint than the last run's is there, after a while of up to a few steps.
+    // Killed after a new checkpoint was written, with a random delay of up to a few steps.
     const auto before = fs::exists(checkpoint) ? fs::last_write_time(checkpoint) : fs::file_time_type::min();
     long wait = static_cast<long>(random.uniform(0.0, 20.0));
     last = run_odosplat_and_signal(flags, SIGKILL, [&] {
@@ -184,12 +184,12 @@ TEST_F(Training, PreparationEndsAtOnceOnASignal) {
 
 TEST_F(Training, CheckpointsThatCannotBeWrittenCostNoTraining) {
   const std::string map = scratch_ / "map.ply";
-  fs::create_directory(map + ".checkpoint");  // nothing can be renamed over a folder, as nothing fits on a full disk
+  fs::create_directory(map + ".checkpoint");  // renaming a file to a folder fails, in place of a full disk
   write_text(map + ".checkpoint/file", "");
   const RunResult result = run_odosplat(words(map));
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("no checkpoint after iteration 10:"));
-  EXPECT_THAT(result.err, HasSubstr("no checkpoint after iteration 110:"));  // tried again
+  EXPECT_THAT(result.err, HasSubstr("no checkpoint after iteration 110:"));  // each checkpoint is tried
   EXPECT_TRUE(fs::is_regular_file(map));
 }
 
@@ -286,7 +286,7 @@ TEST_F(Training, SaysWhatTheMapIsWorth) {
   EXPECT_GT(told["places"], 0);
   EXPECT_FALSE(told["sigma"].is_null());
 
-  // A map that says nothing of itself.
+  // A map without a header about its training.
   const std::string foreign = scratch_ / "map.splat";
   ASSERT_EQ(run_odosplat({"convert", map, foreign}).status, 0);
   const RunResult unknown = run_odosplat({"map", "info", foreign, "--json", scratch_ / "info.json"});
@@ -358,7 +358,7 @@ TEST_F(Training, CloudWithoutColoursTakesThemFromTheImages) {
   cloud.colors.clear();
   const std::string bare = scratch_ / "bare.ply";
   write_point_cloud(bare, cloud);
-  // Before any step: what the images painted on the points, against what the cloud itself knew.
+  // Without training: colours that the images give to the points, compared with those of the cloud itself.
   for (const std::string& source : {cloud_, bare}) {
     const std::string map = source + ".map.ply";
     ASSERT_EQ(
@@ -369,7 +369,7 @@ TEST_F(Training, CloudWithoutColoursTakesThemFromTheImages) {
     ASSERT_EQ(judged.status, 0) << judged.err;
     EXPECT_GT(nlohmann::json::parse(read_text(map + ".json"))["psnr_db"], 17.0) << source;
   }
-  // A map that no frame sees has no errors, rather than errors of zero.
+  // If no frame sees the map, there are no errors, which is not the same as errors of zero.
   for (Eigen::Vector3f& point : cloud.points) point += Eigen::Vector3f(0.0F, 5000.0F, 0.0F);
   const std::string far = scratch_ / "far.ply";
   write_point_cloud(far, cloud);

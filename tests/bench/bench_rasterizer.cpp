@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// The rasteriser and a step of training, against the yardstick. Names: WORK/GAUSSIANS/WIDTHxHEIGHT; with a map of one's
-// own (bench_scene.hpp) also WORK/map/WIDTHxHEIGHT. Real time is what a user waits; process CPU time divided by the
-// cores is what a busy machine cannot distort. Counters: pairs of Gaussian and tile, and `x_ms`, the time of stage x.
+// Times of the rasteriser and of a training step, with the yardstick for comparison. Names:
+// WORK/GAUSSIANS/WIDTHxHEIGHT; with a map of the user (bench_scene.hpp) also WORK/map/WIDTHxHEIGHT. Real time is the
+// time a user waits; process CPU time divided by the number of cores does not depend on other load of the machine.
+// Counters: pairs of Gaussian and tile, and `x_ms`, the time of stage x.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -41,7 +42,7 @@ struct Bench {
   void forward(const RenderRequest& request) {
     rasterizer.forward(gaussians, scene.camera, scene.T_world_camera, request, output);
   }
-  /// Times `work`, then its stages in runs of their own: timing every kernel costs a wait each.
+  /// Times `work`, then its stages in separate runs, because timing every kernel adds a wait for each.
   void run(benchmark::State& state, const std::function<void()>& work) {
     work();
     context.finish();
@@ -68,7 +69,7 @@ void depth_fwd(benchmark::State& state, const BenchScene& scene) {
   bench.run(state, [&] { bench.forward({}); });
 }
 
-/// 2000 pixels spread evenly at random.
+/// Depth at 2000 pixels distributed uniformly at random.
 void sparse_depth(benchmark::State& state, const BenchScene& scene) {
   constexpr int wanted = 2000;
   Bench bench(scene);
@@ -104,7 +105,7 @@ void fwd_bwd(benchmark::State& state, const BenchScene& scene) {
   });
 }
 
-/// What the scene itself looks like: the images to train on, from two poses beside each other.
+/// Training images rendered from the scene itself, from two poses next to each other.
 class RenderedViews : public TrainingViews {
  public:
   explicit RenderedViews(Bench& bench) : camera_(bench.scene.camera) {
@@ -135,13 +136,14 @@ void train_step(benchmark::State& state, const BenchScene& scene) {
   Bench bench(scene);
   RenderedViews views(bench);
   TrainerOptions options;
-  options.iterations = 1 << 20;  // so that rates hardly fall while it is timed
+  options.iterations = 1 << 20;  // so that the learning rates hardly decrease while it is timed
   options.coarse_levels = 0;     // full size from the start
   Trainer trainer(bench.context, options, scene.gaussians, views);
   bench.run(state, [&] { trainer.step(); });
 }
 
-/// Pixels where the two depths differ by more than rounding explains: a Gaussian on the edge of its reach, in or out.
+/// Share of pixels whose depths differ by more than rounding explains: those where a Gaussian is at the limit of
+/// contributing.
 double share_of_different(const std::vector<float>& a, const std::vector<float>& b) {
   std::size_t different = 0;
   for (std::size_t i = 0; i < a.size(); ++i) different += std::abs(a[i] - b[i]) <= 1e-3F ? 0 : 1;

@@ -13,7 +13,7 @@
 namespace odosplat {
 namespace {
 
-const std::string appended = "/process_time/real_time";  // to every name, by the library
+const std::string appended = "/process_time/real_time";  // appended to every name by the library
 
 template <typename Base>
 class PlainNames : public Base {
@@ -34,7 +34,7 @@ void run_benchmarks(int argc, char** argv) {
   for (std::string& flag : flags) {
     json = json || flag == "--benchmark_format=json";
     file = file || flag.rfind("--benchmark_out=", 0) == 0;
-    // A filter that ends a name means the name as it is reported.
+    // A filter that ends with $ refers to the name as it is reported.
     if (flag.rfind("--benchmark_filter=", 0) == 0 && flag.back() == '$') {
       flag.pop_back();
       flag += appended + "$";

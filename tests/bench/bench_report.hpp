@@ -4,8 +4,8 @@
 
 namespace odosplat {
 
-/// Runs the registered benchmarks with Google Benchmark's flags, and reports them under the names they were registered
-/// with: the library would append what kind of time was measured. Throws InputError for flags it does not know.
+/// Runs the registered benchmarks with Google Benchmark's flags, and reports them under their registered names, without
+/// the kind of time that the library appends. Throws InputError for unknown flags.
 void run_benchmarks(int argc, char** argv);
 
 }  // namespace odosplat

@@ -11,20 +11,20 @@
 
 namespace odosplat {
 
-/// What is rendered: Gaussians, a camera, a pose.
+/// A scene to render: Gaussians, a camera, a pose.
 struct BenchScene {
   Gaussians gaussians;
   Camera camera;
   SE3 T_world_camera;
 };
 
-/// The scene of the measured notes: uniform centres on the screen, depths 1..5 m, opacity 0.5, round Gaussians of 2 px
-/// standard deviation, so that cost depends on the count and the size of the image alone.
+/// Random scene for timing: uniform centres in the image, depths 1..5 m, opacity 0.5, round Gaussians of 2 px standard
+/// deviation, so that the cost depends only on the number of Gaussians and the size of the image.
 BenchScene random_scene(std::size_t n, int width, int height);
 
-/// A trained map: the PLY that environment variable ODOSPLAT_BENCH_MAP names, seen from ODOSPLAT_BENCH_POSE
-/// ("tx ty tz qx qy qz qw", camera to world; the origin if not set) with the same camera as above. Nothing if there is
-/// no such variable. Throws InputError for a broken map or pose.
+/// A trained map: the PLY file in environment variable ODOSPLAT_BENCH_MAP, seen from ODOSPLAT_BENCH_POSE ("tx ty tz qx
+/// qy qz qw", camera to world; the origin if not set) with the same camera as above. Nothing if ODOSPLAT_BENCH_MAP is
+/// not set. Throws InputError for an invalid map or pose.
 std::optional<BenchScene> map_scene(int width, int height);
 
 }  // namespace odosplat

@@ -13,7 +13,7 @@
 
 namespace odosplat {
 #if !defined(__x86_64__)
-// Never called: supported() is false.
+// On other processors these are never called, because supported() is false.
 void yard::project_part(const Gaussians&, const View&, std::size_t, std::size_t, Splat*, std::uint32_t*, std::uint32_t*,
                         std::uint32_t*, Part&) {}
 void yard::composite_tile(const View&, int, const std::uint32_t*, std::size_t, const Splat*, float*) {}
@@ -166,7 +166,7 @@ Yardstick::Yardstick(const Gaussians& gaussians, const Camera& camera, const SE3
   m.tiles = static_cast<std::size_t>(m.view.columns) * static_cast<std::size_t>(m.view.rows);
   m.splats.resize(m.n + 8);
   m.keys.resize(m.n + 8);
-  m.first.resize(m.n + 8);  // written eight at a time
+  m.first.resize(m.n + 8);  // written in groups of eight
   m.count.resize(m.n + 8);
   m.order.resize(m.n);
   m.other.resize(m.n);

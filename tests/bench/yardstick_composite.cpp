@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// A tile is 16 blocks of 4 x 4 pixels, a block two vectors of eight. A splat visits the blocks that it can reach and
-// that are not finished. Within a block log2 alpha is taken from its value and gradient at the block's middle.
+// A tile is 16 blocks of 4 x 4 pixels, a block two vectors of eight. A splat is added to the blocks that it can reach
+// and that are not finished. Within a block log2 alpha is computed from its value and gradient at the block's middle.
 #if defined(__AVX2__) && defined(__FMA__)
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr std::size_t blocks = 16;
 constexpr std::size_t check_interval = 32;
 
 struct Tile {
-  f8 transmittance[blocks][2], depth[blocks][2];  // C arrays: a template argument would lose the vector's alignment
+  f8 transmittance[blocks][2], depth[blocks][2];  // C arrays: as a template argument f8 would lose its alignment
 };
 
 unsigned unfinished(const Tile& t) {

@@ -13,7 +13,7 @@
 
 namespace odosplat::yard {
 
-/// What of camera and pose the projection takes; fields as in projection.cl.
+/// Camera and pose for the projection; fields as in projection.cl.
 struct View {
   std::array<float, 12> pose{};  // rotation world to camera row by row, translation
   std::array<float, 8> lens{};
@@ -25,14 +25,14 @@ struct alignas(16) Splat {
   std::array<float, 12> value;
 };
 
-/// Gaussians that one thread projects at a time, and the tiles they touch, Gaussian by Gaussian.
+/// Number of Gaussians that a thread projects at a time, and the tiles they reach, Gaussian by Gaussian.
 constexpr std::size_t part_size = 2048;
 struct Part {
   std::vector<std::uint32_t> tiles;
 };
 
-/// Projects Gaussians [begin, end) of at most part_size: splats, depth keys (~0: not drawn), tiles into `part`, where
-/// first[g] is the place of Gaussian g's first tile and count[g] their number.
+/// Projects Gaussians [begin, end), at most part_size of them: computes splats, depth keys (~0: not drawn) and `part`
+/// with their tiles, where first[g] is the place of Gaussian g's first tile and count[g] their number.
 void project_part(const Gaussians& gaussians, const View& view, std::size_t begin, std::size_t end, Splat* splats,
                   std::uint32_t* keys, std::uint32_t* first, std::uint32_t* count, Part& part);
 

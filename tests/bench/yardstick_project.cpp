@@ -27,7 +27,7 @@ i8 tile_of(i8 pixel) {
   return _mm256_srai_epi32(pixel, 4);
 }
 
-/// Tiles of the drawn Gaussians (bits of `drawn`, lanes from `begin` on).
+/// Appends the tiles of the drawn Gaussians (bits of `drawn`, lanes from `begin` on) to `part`.
 void emit_tiles(const Boxes& b, int drawn, const View& view, std::size_t begin, std::uint32_t* first,
                 std::uint32_t* count, Part& part) {
   const f8 right_edge = set(static_cast<float>(view.width)), bottom_edge = set(static_cast<float>(view.height));
@@ -85,7 +85,7 @@ V3 rotated(const std::array<float, 12>& pose, std::size_t row, const V3& a, cons
 
 }  // namespace
 
-// Step by step as project_one, depth_slope and project of the kernels.
+// The same steps as project_one, depth_slope and project of the kernels.
 void project_part(const Gaussians& gaussians, const View& view, std::size_t begin, std::size_t end, Splat* splats,
                   std::uint32_t* keys, std::uint32_t* first, std::uint32_t* count, Part& part) {
   part.tiles.clear();

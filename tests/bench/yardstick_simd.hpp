@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Eight floats at a time. Included only by the file that is compiled for AVX2 and FMA.
+// Operations on eight floats at a time. Included only by files that are compiled for AVX2 and FMA.
 #pragma once
 
 #include <immintrin.h>
@@ -28,7 +28,7 @@ inline f8 at_least(f8 a, f8 b) { return _mm256_cmp_ps(a, b, _CMP_GE_OQ); }
 inline f8 below(f8 a, f8 b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
 inline int bits(f8 mask) { return _mm256_movemask_ps(mask); }
 
-/// 2^x, -16 < x < 16: polynomial of raster_common.cl.
+/// 2^x for -16 < x < 16 with the polynomial of raster_common.cl.
 inline f8 exp2_short(f8 x) {
   const f8 magic = set(12582912.0F);
   const f8 z = add(x, magic);
@@ -41,7 +41,7 @@ inline f8 exp2_short(f8 x) {
   return _mm256_castsi256_ps(_mm256_add_epi32(_mm256_castps_si256(p), shifted));
 }
 
-/// 2^x to 2e-7 relative, |x| < 126.
+/// 2^x for |x| < 126 with a relative error of 2e-7.
 inline f8 exp2_long(f8 x) {
   const f8 magic = set(12582912.0F);
   const f8 z = add(x, magic);
@@ -55,7 +55,7 @@ inline f8 exp2_long(f8 x) {
   return _mm256_castsi256_ps(_mm256_add_epi32(_mm256_castps_si256(p), shifted));
 }
 
-/// log2 of positive normal x: exponent, and the series of artanh over (m - 1) / (m + 1), m in [sqrt 1/2, sqrt 2).
+/// log2 of positive normal x: the exponent plus the artanh series of (m - 1) / (m + 1), m in [sqrt 1/2, sqrt 2).
 inline f8 log2_of(f8 x) {
   const i8 raw = _mm256_castps_si256(x);
   const i8 exponent = _mm256_srai_epi32(_mm256_sub_epi32(raw, set(0x3f3504f3)), 23);

@@ -21,7 +21,7 @@ float pattern(double x, double y) {
   return static_cast<float>(0.5 + 0.25 * std::sin(4.0 * x) + 0.2 * std::cos(5.0 * y));
 }
 
-// The ray that a distorted pixel shows, by Newton-free fixed-point iteration of the lens model.
+// The ray of a distorted pixel, by fixed-point iteration of the lens model.
 Eigen::Vector2d ray_of_distorted(const Undistorter& undistorter, const Camera& camera, double u, double v) {
   Eigen::Vector2d p(u, v);
   for (int i = 0; i < 60; ++i) p += Eigen::Vector2d(u, v) - undistorter.distort(p.x(), p.y());
@@ -38,7 +38,7 @@ TEST(Undistorter, NoDistortionReturnsTheImageItself) {
   }
 }
 
-// Against the formula of the lens written out for one point, and against OpenCV's projection.
+// Comparison with OpenCV's projection.
 TEST(Undistorter, DistortsAsOpenCvDoes) {
   const Undistorter undistorter(tum, tum_lens);
   const cv::Matx33d K(tum.fx, 0, tum.cx, 0, tum.fy, tum.cy, 0, 0, 1);
@@ -76,7 +76,7 @@ TEST(Undistorter, RestoresAnAnalyticImage) {
       if (depth(v, u) == 0.0F) continue;
       const Eigen::Vector3d ray = tum.ray(u, v);
       ASSERT_NEAR(color(v, u)[1], pattern(ray.x(), ray.y()), 1e-4) << u << " " << v;
-      // The nearest pixel is at most 0.71 px away, some more where the lens magnifies.
+      // The nearest pixel is at most 0.71 px away, slightly more where the lens magnifies.
       ASSERT_NEAR(depth(v, u), 2.0 + ray.x(), 1.2 / tum.fx) << u << " " << v;
     }
   }
@@ -97,7 +97,8 @@ TEST(Undistorter, WhatTheLensHasNotSeenIsZero) {
   EXPECT_EQ(color(0, 0), cv::Vec3f::all(0.0F));
   EXPECT_EQ(depth(479, 639), 0.0F);
   EXPECT_NEAR(color(240, 320)[0], 1.0F, 1e-6F);
-  // Strong barrel with one coefficient: r (1 - 0.6 r^2) turns back at r = 0.745; beyond, rays would be seen twice.
+  // Strong barrel distortion with one coefficient: r (1 - 0.6 r^2) has its maximum at r = 0.745; rays beyond it would
+  // be projected to pixels of other rays.
   const Camera wide{640, 480, 300.0, 300.0, 319.5, 239.5};
   const DepthImage barrel = Undistorter(wide, {-0.6, 0.0, 0.0, 0.0}).depth(DepthImage(480, 640, 2.0F));
   EXPECT_EQ(barrel(240, 319 + 230), 0.0F);  // r = 0.77

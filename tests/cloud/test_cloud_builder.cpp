@@ -51,7 +51,7 @@ TEST(CloudBuilder, FinalPointsHaveTheNoiseAskedForAlongTheirRays) {
   options.noise = 0.0;
   CloudBuilder exact(options);
   const DepthImage depth = plane_depth(2.0, Eigen::Vector3d::UnitZ());
-  for (int i = 0; i < 3; ++i) {  // many points a voxel: noise on pixels would average out
+  for (int i = 0; i < 3; ++i) {  // several points in a voxel: noise added to the pixels would average out
     noisy.add(depth, {}, camera_160, SE3());
     exact.add(depth, {}, camera_160, SE3());
   }
@@ -89,8 +89,8 @@ TEST(CloudBuilder, SameSeedSameBitsOtherSeedOtherPoints) {
 
 TEST(CloudBuilder, LeavesOutTheFarSideOfEdgesAndKeepsThinThings) {
   DepthImage depth(120, 160, 3.0F);
-  depth.col(80) = 1.0F;  // a wire of one pixel
-  depth(60, 30) = 2.2F;  // a mixed pixel would look like this beside nearer ones
+  depth.col(80) = 1.0F;  // a wire one pixel wide
+  depth(60, 30) = 2.2F;  // a mixed pixel at an edge: its neighbour is nearer
   depth(60, 31) = 1.5F;
   CloudOptions options;
   options.voxel = 0.001;

@@ -139,7 +139,7 @@ TEST(EstimateNormals, TurnToTheNearestOfSeveralViewpoints) {
   estimate_normals(cloud, 8, {{0.0, 1.0, 0.5}, {2.0, 1.0, -0.5}});
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const float x = cloud.points[i].x();
-    if (std::abs(x - 1.0F) < 0.1F) continue;  // both are as near
+    if (std::abs(x - 1.0F) < 0.1F) continue;  // the two positions are about equally near
     EXPECT_NEAR(cloud.normals[i].z(), x < 1.0F ? 1.0F : -1.0F, 1e-3F);
   }
 }
@@ -208,7 +208,7 @@ TEST(CloudFilters, SameBitsWhateverTheThreads) {
   EXPECT_EQ(distances[0], distances[1]);
 }
 
-// A search for each of N points that coincide takes N^2 steps if it looks at all of them: minutes, for these.
+// If the search for each of N coinciding points looks at all of them, it takes N^2 steps, which is minutes here.
 TEST(MeanNeighborDistances, PointsThatCoincideAreQuick) {
   PointCloud cloud;
   cloud.points.assign(100000, Eigen::Vector3f(0.3F, -0.2F, 1.5F));

@@ -92,7 +92,8 @@ TEST(CloudThinner, ColoursAndNormalsAreAllOrNothing) {
   EXPECT_FALSE(thinner.finish("c").has_normals());
 }
 
-// Numbers of voxels that no integer holds: every place is a voxel of its own, or it is said that there are too many.
+// Voxel indices that exceed every integer type: each distinct position is a voxel, or the voxel is reported as too
+// small.
 TEST(CloudThinner, KeepsEveryPointOfAnyVoxel) {
   const CloudBatch batch = random_batch(1000, 4);
   for (const double voxel : {1e-9, 1e-10, 1e-15, 1e-19, 1e-30, 1e-300}) {
@@ -104,7 +105,7 @@ TEST(CloudThinner, KeepsEveryPointOfAnyVoxel) {
     for (const Eigen::Vector3d& point : batch.points) cloud.points.push_back(point.cast<float>());
     EXPECT_EQ(voxel_downsample(cloud, voxel).size(), 1000U) << voxel;
   }
-  // Equal places share a voxel however small, on both sides of zero.
+  // Equal positions share a voxel of any size, on both sides of zero.
   CloudBatch twins;
   for (const double x : {1.0, -1.0, 0.0, -0.0, 1e9}) {
     twins.points.emplace_back(x, x, x);

@@ -43,10 +43,11 @@ const PointCloud& room_cloud() {
 
 struct Sparse {
   Similarity cloud_from_points;         // the truth
-  std::vector<Eigen::Vector3f> points;  // in a frame and a unit of their own
+  std::vector<Eigen::Vector3f> points;  // in another frame and another unit
 };
 
-// Points of the room in another frame, 1 cm of noise, `outliers` of them anywhere in and around the room.
+// Points of the room in another frame, with 1 cm of noise; a share `outliers` of them at random places in and around
+// the room.
 Sparse sparse_points(double outliers, std::uint64_t seed) {
   static const PointCloud surface = scan(make_box_room(7), 40, 80, 0.0, 5);
   Random random(seed);
@@ -64,7 +65,7 @@ Sparse sparse_points(double outliers, std::uint64_t seed) {
   return sparse;
 }
 
-// The truth, disturbed about the middle of the room.
+// The true similarity, disturbed about the middle of the room.
 Similarity disturbed(const Similarity& truth, double metres, double degrees, double scale, std::uint64_t seed) {
   Random random(seed);
   const auto direction = [&] {
@@ -92,7 +93,8 @@ Error error_of(const Similarity& found, const Similarity& truth) {
   return error;
 }
 
-// 3000 points of 1 cm hold a plane each to 0.01 / sqrt(500) = 0.5 mm; corners that lie beyond the points lever this up.
+// 3000 points with 1 cm of noise determine each plane to 0.01 / sqrt(500) = 0.5 mm; at corners beyond the points the
+// error is larger.
 TEST(Sim3Icp, RecoversTheMotionFromARoughGuess) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Sparse sparse = sparse_points(0.2, seed);
@@ -106,10 +108,10 @@ TEST(Sim3Icp, RecoversTheMotionFromARoughGuess) {
     EXPECT_LT(error.position_m, 0.005);
     EXPECT_LT(error.scale, 0.001);
     EXPECT_EQ(r.points, 3000);
-    // Outliers come near a surface by chance.
+    // Some outliers are near a surface by chance.
     EXPECT_GT(r.inlier_share, 0.79);
     EXPECT_LT(r.inlier_share, 0.88);
-    // Median of |normal| of 1 cm is 0.67 cm; the outliers among the inliers and the cloud's own noise add.
+    // The median of |normal deviate| of 1 cm is 0.67 cm; outliers among the inliers and the cloud's noise increase it.
     EXPECT_GT(r.median_m, 0.006);
     EXPECT_LT(r.median_m, 0.0085);
     EXPECT_GT(r.rmse_m, r.median_m);
@@ -131,7 +133,7 @@ TEST(Sim3Icp, ThreadsChangeNoBit) {
 }
 
 TEST(Sim3Icp, RefusesAnUnrelatedCloud) {
-  // A ball and a pile of points, as large as the room.
+  // Two concentric spheres of points, about as large as the room.
   Random random(4);
   PointCloud other;
   for (int i = 0; i < 6000; ++i) {
@@ -145,7 +147,7 @@ TEST(Sim3Icp, RefusesAnUnrelatedCloud) {
   }
 }
 
-// Of the same kind: four sides of a box lie on another box whatever their sizes, which is 0.61 of these points.
+// Two boxes of different sizes can be aligned on four sides, which hold a share of 0.61 of these points.
 TEST(Sim3Icp, RefusesAnotherRoom) {
   const PointCloud other = scan(make_living_room(1), 50, 100, 0.005, 1);
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -168,7 +170,7 @@ TEST(Sim3Icp, RefusesAGuessTooFarOff) {
   EXPECT_EQ(far.inliers, 0);
 }
 
-// Planes x = 0, y = 0, z = 0, as many of them as asked, 3 m wide, and points on them.
+// The planes x = 0, y = 0 and z = 0, the first `planes` of them, 3 m wide, and points on them.
 Sim3IcpResult on_planes(int planes) {
   Random random(9);
   PointCloud cloud;
@@ -184,7 +186,7 @@ Sim3IcpResult on_planes(int planes) {
 TEST(Sim3Icp, RefusesSurfacesThatLeaveADirectionOpen) {
   for (const int planes : {1, 2, 3}) {
     const Sim3IcpResult r = on_planes(planes);
-    // Where the scale is open, noise lets it drift first.
+    // If the scale is undetermined, noise may make it diverge first.
     EXPECT_THAT(r.fault, testing::AnyOf(HasSubstr("open"), HasSubstr("the scale runs away"))) << planes;
   }
 }

@@ -40,7 +40,7 @@ class Device : public testing::Test {
     old_ = old != nullptr ? old : "";
     unsetenv("ODOSPLAT_DEVICE");
   }
-  // What the user asked for goes on for the tests behind this one.
+  // Restores the user's choice for the following tests.
   void TearDown() override {
     if (old_.empty()) {
       unsetenv("ODOSPLAT_DEVICE");

@@ -34,7 +34,7 @@ TEST_P(Sizes, ScanEqualsSerialSum) {
 TEST_P(Sizes, SortEqualsStableSort) {
   Random random(2);
   std::vector<std::uint32_t> keys(n_);
-  // Depths as bits, many of them equal, with the largest key (culled) among them.
+  // Bits of depths, many of them equal; some keys have the largest value (culled).
   for (auto& k : keys) {
     const float depth = 0.1F + 0.01F * static_cast<float>(random.below(700));
     k = random.below(10) == 0 ? 0xffffffffU : std::bit_cast<std::uint32_t>(depth);
@@ -47,7 +47,7 @@ TEST_P(Sizes, SortEqualsStableSort) {
   EXPECT_EQ(order.download(), expected);
 }
 
-// Passes of 11 and of 4 bits: odd and even numbers of them, and bits above the last digit.
+// Sorts with passes of 11 and of 4 bits: odd and even numbers of passes, and unused bits in the last digit.
 TEST_P(Sizes, SortOfShortKeysEqualsStableSort) {
   for (const int bits : {1, 4, 5, 11, 12, 17}) {
     Random random(3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Binaries are run as they are found: nothing counts that somebody else may have put there.
+// Cached binaries are executed without further checks, so files that another user may have written must be ignored.
 #include "odosplat/compute/program_cache.hpp"
 
 #include <gmock/gmock.h>
@@ -125,7 +125,7 @@ TEST_F(ProgramCacheTest, ALinkInPlaceOfAnEntryIsReplacedAndNotFollowed) {
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "private");
 }
 
-// Two keys may share a file name, never a binary.
+// Two keys may map to the same file name: the binary is used only if the whole key is equal.
 TEST_F(ProgramCacheTest, TheWholeKeyIsCompared) {
   const ProgramCache cache(folder());
   cache.store(key_, binary_);
@@ -150,7 +150,7 @@ TEST_F(ProgramCacheTest, LeftoversOfKilledProcessesAreRemoved) {
   EXPECT_TRUE(fs::exists(fresh));
 }
 
-/// Sets a variable of the environment, or takes it away, until the end.
+/// Sets or unsets an environment variable and restores it at the end.
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) {

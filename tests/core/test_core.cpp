@@ -105,7 +105,7 @@ TEST(ParallelFor, RethrowsAndNests) {
 
 TEST(ParallelFor, GoesOnWithTheThreadsThatTheMachineGives) {
   const auto with_little_memory = [] {
-    // Each thread needs a stack of some megabytes.
+    // Each thread reserves a stack of some megabytes.
     rlimit memory{};
     std::ifstream("/proc/self/statm") >> memory.rlim_cur;
     memory.rlim_cur = memory.rlim_cur * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (64U << 20U);

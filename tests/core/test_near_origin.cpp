@@ -14,7 +14,7 @@ namespace {
 
 using Positions = std::vector<Eigen::Vector3d>;
 
-// A path of `length` that starts at `start`.
+// A straight path of this length along x from `start`.
 Positions path(const Eigen::Vector3d& start, double length) {
   Positions positions;
   for (int k = 0; k < 101; ++k) positions.emplace_back(start + Eigen::Vector3d(length * k / 100.0, 0.0, 0.0));
@@ -37,7 +37,7 @@ TEST(NearOrigin, RefusesWhatSinglePrecisionWouldSpoil) {
             "FILE --origin X Y Z`)");
   EXPECT_NE(fault_of(path({0.0, -33000.0, 0.0}, 8.0)), "");
   EXPECT_NE(fault_of({{500000.0, 5400000.0, 0.0}}), "");
-  // A few poses at the origin do not hide the others.
+  // A few poses at the origin do not change the result.
   Positions mixed = path({500000.0, 5400000.0, 0.0}, 8.0);
   mixed.insert(mixed.begin(), 10, Eigen::Vector3d::Zero());
   EXPECT_NE(fault_of(mixed), "");

@@ -25,7 +25,7 @@ using testing::HasSubstr;
 
 class ProgressTest : public testing::Test {
  protected:
-  // Into a file: what is tested is the output that is no terminal's, wherever the tests run.
+  // Standard error is captured to a file: the output without a terminal is tested, wherever the tests run.
   void SetUp() override { testing::internal::CaptureStderr(); }
 };
 
@@ -60,7 +60,7 @@ TEST_F(ProgressTest, ShowsNoControlCharacters) {
 
 TEST(TimeLeft, FollowsFromTheStepsAfterTheFirstReport) {
   TimeLeft left(4000);
-  // 70 s before the first step is done: kernels were built. Then 10 steps per second.
+  // 70 s before the first step is done, such as for building kernels; then 10 steps per second.
   EXPECT_EQ(left.update(1, 70.0), std::nullopt);
   EXPECT_EQ(left.update(11, 71.0), std::nullopt) << "after 1 s";
   EXPECT_EQ(left.update(31, 73.0), std::nullopt) << "after 0.8 % of the steps";
@@ -82,7 +82,7 @@ TEST(TimeLeft, OfSlowStepsIsKnownAfterTwentySeconds) {
   EXPECT_EQ(TimeLeft(0).update(0, 0.0), 0.0);
 }
 
-/// What Progress writes to a terminal of so many columns.
+/// The output of Progress to a terminal with this number of columns.
 std::string drawn_on_terminal(unsigned short columns, const std::string& detail) {
   int master = -1;
   int terminal = -1;
@@ -104,7 +104,7 @@ std::string drawn_on_terminal(unsigned short columns, const std::string& detail)
   return text;
 }
 
-/// Columns of the longest line that is drawn, control sequences left out.
+/// Columns of the longest line drawn, without control sequences.
 int widest_line(std::string text) {
   const std::string redraw = "\r\x1b[K";
   for (std::size_t at = 0; (at = text.find(redraw)) != std::string::npos;) text.replace(at, redraw.size(), "\n");

@@ -31,7 +31,7 @@ TEST(SE3, ExpAndLogAreInverse) {
 }
 
 TEST(SE3, ExpSolvesItsDifferentialEquation) {
-  // exp(xi) = (exp(xi / n))^n: the many small steps need no closed form of the left Jacobian.
+  // exp(xi) = (exp(xi / n))^n: for small steps no closed form of the left Jacobian is needed.
   Random random(2);
   const Vector6d xi = random_twist(random, 1.0);
   const int n = 1 << 20;

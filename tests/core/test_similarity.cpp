@@ -17,7 +17,7 @@ TEST(Similarity, MovesPosesAsItMovesPoints) {
   const Similarity S{0.4, T_b_a};
   const SE3 T_a_camera = SE3::exp((Vector6d() << 0.2, 0.7, -1.1, -0.3, 0.2, 0.9).finished());
   const Eigen::Vector3d p_camera(0.3, -0.2, 2.0);
-  // What the camera sees at a distance it sees at 0.4 of it, in the same direction.
+  // A point at p_camera is seen in the moved pose in the same direction, at 0.4 times the distance.
   EXPECT_LT((S * (T_a_camera * p_camera) - (S * T_a_camera) * (0.4 * p_camera)).norm(), 1e-14);
 }
 
@@ -37,7 +37,7 @@ TEST(AlignPoints, FindsTheSimilarityThatWasApplied) {
 }
 
 TEST(AlignPoints, IsTheBestRigidMotionEvenForMirroredPoints) {
-  // A reflection would fit exactly; the best rotation must still be a rotation and no small turn may improve it.
+  // A reflection would fit exactly; the result must be a rotation that no small motion improves.
   Random random(2);
   std::vector<Eigen::Vector3d> source;
   std::vector<Eigen::Vector3d> target;

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A recording of 10 s, from `start` on, `rate` stamps a second, in units of 1 / `per_second`.
+// Time stamps of a recording of `seconds`, from `start` on, `rate` stamps per second, in units of 1 / `per_second` s.
 std::vector<double> recording(double rate, double per_second = 1.0, double start = 1305031102.175,
                               double seconds = 10.0) {
   std::vector<double> times;
@@ -45,7 +45,7 @@ TEST(StampGuess, NamesTheUnit) {
     EXPECT_EQ(guess(recording(30, 1e3, start), recording(30, 1e9, start)),
               "the stamps of the estimate look like ms, those of the truth like ns");
   }
-  // Another start as well: their length tells.
+  // Different start times: the unit follows from the duration.
   EXPECT_EQ(guess(recording(30, 1e9, 0), recording(30)), "the stamps of the estimate look like ns");
 }
 

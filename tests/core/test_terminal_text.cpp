@@ -20,7 +20,7 @@ TEST(TerminalText, ControlCharactersAreShownAsBytes) {
   EXPECT_EQ(printable_line("a\x1b[31mb"), "a\\x1b[31mb");
   EXPECT_EQ(printable_line("\a\r\x7f\0z"s), "\\x07\\x0d\\x7f\\x00z");
   EXPECT_EQ(printable_line("two\nlines\tand a tab"), "two\\x0alines\\x09and a tab");
-  // CSI as one character (U+009B), and one that turns the direction of writing (U+202E).
+  // CSI as one character (U+009B), and one that reverses the direction of writing (U+202E).
   EXPECT_EQ(printable_line("\u009b31m"), "\\xc2\\x9b31m");
   EXPECT_EQ(printable_line("\u202egnp.exe"), "\\xe2\\x80\\xaegnp.exe");
 }
@@ -32,8 +32,8 @@ TEST(TerminalText, LinesAreKeptWhereTextHasThem) {
 TEST(TerminalText, Utf8StaysAndWhatIsNoneIsEscaped) {
   EXPECT_EQ(printable_line("Büro 東京 🎥"), "Büro 東京 🎥");
   EXPECT_EQ(printable_line("B\xfcro"), "B\\xfcro");              // Latin-1
-  EXPECT_EQ(printable_line("\xe6\x9d"), "\\xe6\\x9d");           // cut
-  EXPECT_EQ(printable_line("\xc0\xaf"), "\\xc0\\xaf");           // longer than need be
+  EXPECT_EQ(printable_line("\xe6\x9d"), "\\xe6\\x9d");           // truncated
+  EXPECT_EQ(printable_line("\xc0\xaf"), "\\xc0\\xaf");           // overlong encoding
   EXPECT_EQ(printable_line("\xed\xa0\x80"), "\\xed\\xa0\\x80");  // surrogate
   EXPECT_EQ(printable_line("\xf5\x80\x80\x80"), "\\xf5\\x80\\x80\\x80");
 }
@@ -66,13 +66,13 @@ TEST(TerminalText, QuotedTextIsCutAndTheRestOfTheLineStays) {
   EXPECT_EQ(printable_line("f.txt: line 3: `" + token + "` is not a number"),
             "f.txt: line 3: `" + cut + "` is not a number");
   EXPECT_EQ(printable_line("--start: is \"" + token + "\", \"b\""), "--start: is \"" + cut + "\", \"b\"");
-  // 100 bytes stay; a character is not cut in two.
+  // At most 100 bytes are kept; the cut is between characters.
   const std::string whole(100, 'y');
   EXPECT_EQ(printable_line("\"" + whole + "\""), "\"" + whole + "\"");
   std::string umlauts;
   for (int i = 0; i < 60; ++i) umlauts += "\u00fc";
   EXPECT_EQ(printable_line("`" + umlauts + "`"), "`" + umlauts.substr(0, 96) + "...`");
-  // Paths are not quoted, and may have 4096 bytes.
+  // Paths without quotes are kept; they may have 4096 bytes.
   const std::string path = "/" + std::string(4094, 'p');
   EXPECT_EQ(printable_line(path + ": is missing"), path + ": is missing");
   EXPECT_EQ(printable_line("a lone \" mark"), "a lone \" mark");

@@ -30,7 +30,7 @@ TARGETS = {
                      "nvptx64--nvidiacl.bc"),
 }
 MAX_LOCAL_BYTES = 16 * 1024
-# The tile shell, and the projection of eight Gaussians an item; the sort of pairs over few long chunks.
+# Variants for CPUs: tile shell, projection of eight Gaussians per work-item, sort of pairs in few long chunks.
 FOR_CPUS = ["SHELL_TILE=1", "GW=8"]
 KERNELS_FOR_CPUS = ["bin_histogram", "bin_totals", "bin_cursors", "bin_scatter"]
 
@@ -55,7 +55,7 @@ def programs(folder):
 
 
 def amd_figures(assembly):
-    """Of each kernel: registers, spills, scratch and local memory, from the metadata at the end and the comments."""
+    """Registers, spills, scratch and local memory of each kernel, from the metadata at the end and the comments."""
     figures = {}
     for block in re.split(r"\n  - \.args:", assembly)[1:]:
         value = {key: int(number) for key, number in re.findall(r"\n    \.(\w+): +(\d+)", block)}
@@ -96,7 +96,7 @@ def nvidia_figures(assembly, path):
 
 def compile_one(job):
     number, (name, options, text), target, work = job
-    # A file of its own for each target: the other's compiler, at work at the same time, crashed on one being rewritten.
+    # A separate source file for each target: if one is rewritten, a compiler that is reading it may crash.
     stem = os.path.join(work, f"{number}-{target.split()[0]}")
     source, result = f"{stem}.cl", f"{stem}.s"
     with open(source, "w", encoding="utf-8") as file:
@@ -145,7 +145,7 @@ def main():
         os.makedirs(folder)
     subprocess.run([options.exercise, os.path.join(options.work, "exercise.txt")], check=True,
                    env=dict(os.environ, ODOSPLAT_CACHE_DIR=cache))
-    found = programs(os.path.join(cache, "kernels"))  # as lib/odosplat/compute/program_cache.hpp has it
+    found = programs(os.path.join(cache, "kernels"))  # folder as in lib/odosplat/compute/program_cache.hpp
     jobs = [(number, program, target, assembly) for number, program in enumerate(found) for target in TARGETS]
     failures = 0
     kernels = set()

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 // exercise_kernels OUT [large]: launches every kernel, in both shells and all variants that the libraries build, on a
-// tiny scene (48 x 32 pixels and less, fewer than 100 Gaussians), or on one of 160 x 120 and 400. Writes to OUT a line
-// "launched KERNEL" for each kernel and a line "array NAME VALUES..." for each result. For the scripts beside it: the
-// memory checker, the offline compilers and the comparison of runtimes all look at this one run. Exit 1: the two ways
-// to sort disagree, or the device failed.
+// tiny scene (at most 48 x 32 pixels, fewer than 100 Gaussians), or with `large` on one of 160 x 120 pixels and 400
+// Gaussians. Writes to OUT a line "launched KERNEL" for each kernel and a line "array NAME VALUES..." for each result.
+// The scripts beside it (memory checker, offline compilers, comparison of runtimes) all use this output. Exit status 1:
+// the two ways to sort disagree, or the device failed.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -71,7 +71,7 @@ Buffer<float> Exercise::some_gradient(std::size_t n) const {
   return {context_, values};
 }
 
-// Both layouts of scan and sort, and both ways to sort pairs.
+// Scan and sort over chunks and over groups, and both ways to sort pairs.
 void Exercise::sorts() {
   const std::size_t n = large_ ? 5000 : 70;
   std::vector<std::uint32_t> orders[2], sums[2];
@@ -88,7 +88,8 @@ void Exercise::sorts() {
     orders[groups] = out.download();
   }
   if (orders[0] != orders[1] || sums[0] != sums[1]) throw std::runtime_error("sort over chunks and groups disagree");
-  // The projection for one Gaussian an item, then both ways to sort its pairs: the counting sort is for CPUs only.
+  // Projects with one Gaussian per item, then sorts the pairs in both ways: normally the counting sort is used only on
+  // CPUs.
   const compute::Program program(context_, {"raster_common.cl", "projection.cl", "tiles.cl", "project.cl"}, "-D GW=1");
   const Viewpoint view = make_viewpoint(scene_.camera, scene_.T_world_camera);
   DeviceGaussians gaussians;
@@ -124,14 +125,14 @@ void Exercise::raster(Rasterizer& rasterizer, const std::string& name, const Ren
   keep(name + ".depth", output.depth.download());
   keep(name + ".alpha", output.alpha.download());
   keep(name + ".sigma", output.sigma.download());
-  // The same at some pixels only; one of them twice.
+  // The same at some pixels only, one of them twice.
   const int width = scene_.camera.width, height = scene_.camera.height;
   const std::vector<cv::Point> places{{0, 0}, {width - 1, height - 1}, {width / 2, height / 2}, {3, 5}, {3, 5}};
   RenderOutput some;
   Rasterizer(context_, rasterizer.options())
       .forward_pixels(gaussians, scene_.camera, scene_.T_world_camera, request, places, some);
   keep(name + ".some_alpha", some.alpha.download());
-  if (request.sigma) return;  // not differentiated: the backward pass is that without it
+  if (request.sigma) return;  // sigma has no gradient: the backward pass is the same as without it
   OutputGradients given;
   given.color = some_gradient(output.color.size());
   if (request.depth_mode != DepthMode::surface) given.depth = some_gradient(output.depth.size());
@@ -147,7 +148,7 @@ void Exercise::raster(Rasterizer& rasterizer, const std::string& name, const Ren
   keep(name + ".d_pose", std::vector<float>(pose.begin(), pose.end()));
 }
 
-// Every set of images that may be asked for; degrees of the harmonics in turn.
+// All combinations of requested images; the degree of the harmonics varies.
 void Exercise::rasters() {
   for (const Shell shell : {Shell::tile, Shell::pixel}) {
     RasterizerOptions options;
@@ -197,7 +198,7 @@ void Exercise::losses() {
   }
 }
 
-// What training adds to the image loss.
+// The terms of training other than the image loss.
 void Exercise::training_terms() {
   const int width = scene_.camera.width, height = scene_.camera.height;
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

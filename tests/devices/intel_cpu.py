@@ -19,7 +19,7 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
 from venv_packages import python_with, SKIPPED  # noqa: E402
 
-# The first does not ask for the second, but its compiler loads libsvml and libimf from it.
+# The first does not declare the second as a dependency, but its compiler loads libsvml and libimf from it.
 PACKAGES = ["intel-opencl-rt==2026.2.0", "intel-cmplr-lib-rt==2026.2.0"]
 
 
@@ -42,12 +42,12 @@ def install(venv):
     if installed(venv):
         return 0
     python_with(venv, PACKAGES, seconds=600)
-    # Its own loader would come before the system's; it would look for vendors elsewhere.
+    # The package's OpenCL loader would be found before the system's, and it searches for vendors in another place.
     aside = os.path.join(venv, "loader")
     os.makedirs(aside, exist_ok=True)
     for loader in glob.glob(os.path.join(venv, "lib", "libOpenCL.so*")):
         shutil.move(loader, os.path.join(aside, os.path.basename(loader)))
-    # The .icd that comes with it holds a path of the machine that it was built on.
+    # The package's .icd contains a path of the machine that it was built on.
     os.makedirs(vendors(venv), exist_ok=True)
     with open(icd(venv) + ".new", "w", encoding="utf-8") as file:
         file.write(os.path.abspath(os.path.join(venv, "lib", "libintelocl.so")) + "\n")
@@ -65,7 +65,7 @@ def environment(venv):
 
 
 def missing(venv):
-    """A line for people; None where the runtime is there."""
+    """A line with the reason for skipping; None if the runtime is installed."""
     return None if installed(venv) else f"skipped: Intel's CPU runtime is not in {venv}: ./run test installs it from PyPI"
 
 

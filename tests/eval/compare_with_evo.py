@@ -20,7 +20,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.p
 from venv_packages import python_with, SKIPPED  # noqa: E402
 
 EVO = "evo==1.38.1"
-# name, truth, estimate; KITTI files are matrices without times.
+# name, ground truth, estimate; KITTI files contain matrices without times.
 SETS = [
     ("fr2_desk_orb", "fr2_desk_groundtruth.txt", "fr2_desk_ORB.txt"),
     ("fr2_desk_orb_mono", "fr2_desk_groundtruth.txt", "fr2_desk_ORB_kf_mono.txt"),
@@ -130,7 +130,7 @@ def main():
     parser.add_argument("--data", required=True, help="folder of the trajectories")
     parser.add_argument("--venv", required=True, help="folder of the virtual environment for evo")
     parser.add_argument("--record", action="store_true", help="write evo's figures as a C++ header")
-    parser.add_argument("--worker", help=argparse.SUPPRESS)  # the file that the figures go to
+    parser.add_argument("--worker", help=argparse.SUPPRESS)  # the file that the figures are written to
     options = parser.parse_args()
     if options.worker:
         with open(options.worker, "w", encoding="utf-8") as file:

@@ -12,8 +12,8 @@
 
 namespace odosplat {
 
-/// Poses of well-formed files: TUM (8 values a line) or KITTI (12 values; time = line number). The metrics are tested
-/// without the readers, and with truth that holds a stamp twice, as TUM's does.
+/// Reads well-formed files of poses: TUM (8 values per line) or KITTI (12 values; time = line number). Separate from
+/// the library's readers, so that the metrics are tested without them.
 inline Trajectory read_poses(const std::string& path) {
   Trajectory trajectory;
   std::ifstream file(path);
@@ -30,7 +30,7 @@ inline Trajectory read_poses(const std::string& path) {
       Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
       for (int i = 0; i < 12; ++i) M(i / 4, i % 4) = v[static_cast<std::size_t>(i)];
       pose.time = static_cast<double>(trajectory.size());
-      // Matrices of six digits are rotations to 1e-6 only: the nearest rotation loses least.
+      // Matrices written with six digits are rotations only to 1e-6: the nearest rotation is used.
       const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M.topLeftCorner<3, 3>(), Eigen::ComputeFullU | Eigen::ComputeFullV);
       pose.T_world_camera = SE3(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()), M.topRightCorner<3, 1>());
     }

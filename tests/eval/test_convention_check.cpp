@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 const Camera camera_160{160, 120, 130.0, 128.0, 79.0, 60.5};
 
-// Depth of a room with a block in it, seen from T_world_camera; nothing in it is symmetric.
+// Depth of a room with a block in it, seen from T_world_camera; the scene has no symmetry.
 DepthImage room_depth(const SE3& T_world_camera) {
   const Eigen::Vector3d low(-2.0, -1.2, -2.0);
   const Eigen::Vector3d high(1.7, 1.5, 3.0);
@@ -109,7 +109,7 @@ TEST(CheckConventions, FindsReflectedPosesAsTheOtherSignOfFy) {
   const ConventionReport r = check_conventions(input);
   EXPECT_THAT(r.verdict, HasSubstr("fy: the data want -128.0, the file says +128.0"));
   EXPECT_THAT(r.verdict, HasSubstr("reflect the poses"));
-  input.fy_sign = -1;  // the ICL-NUIM way: declared like that it is right
+  input.fy_sign = -1;  // as in ICL-NUIM: with a negative fy declared the poses are right
   EXPECT_TRUE(check_conventions(input).as_declared);
 }
 
@@ -127,7 +127,7 @@ TEST(CheckConventions, FindsShiftedIds) {
     const std::vector<std::optional<SE3>> right = input.T_world_camera;
     const int n = static_cast<int>(right.size());
     for (int i = 0; i < n; ++i) {
-      // What belongs to image i stands at i + shift.
+      // The pose of image i is stored at i + shift.
       const int from = i - shift;
       input.T_world_camera[static_cast<std::size_t>(i)] =
           from >= 0 && from < n ? right[static_cast<std::size_t>(from)] : std::nullopt;
@@ -159,7 +159,7 @@ TEST(CheckConventions, NamesSeveralFaultsAtOnce) {
 }
 
 TEST(CheckConventions, DoesNotGuessWhereTheDataCannotTell) {
-  // Constant velocity: the motion over 20 frames is the same from every frame on, whatever the shift.
+  // Constant velocity: the motion over 20 frames is the same at every frame, so a shift has no effect.
   const Vector6d step = (Vector6d() << 0.006, -0.004, 0.005, 0.004, 0.005, -0.003).finished();
   const World steady = make_world(40, [&](int i) { return SE3::exp(i * step); });
   const ConventionReport r = check_conventions(steady.input);
@@ -168,13 +168,13 @@ TEST(CheckConventions, DoesNotGuessWhereTheDataCannotTell) {
   EXPECT_FALSE(r.findings[2].decided);
   EXPECT_TRUE(r.findings[0].decided);
 
-  // Pure rotation says nothing of the scale.
+  // Pure rotation does not depend on the scale.
   const World turning = make_world(40, [](int i) { return SE3(hand_held(2 * i).rotation(), Eigen::Vector3d::Zero()); });
   const ConventionReport t = check_conventions(turning.input);
   EXPECT_TRUE(t.as_declared) << t.verdict;
   EXPECT_THAT(t.verdict, HasSubstr("depth scale: not decidable"));
 
-  // No motion at all: everything fits, nothing is accused.
+  // No motion: all conventions fit, so no part is decided.
   const World still = make_world(6, [](int) { return SE3(); });
   const ConventionReport s = check_conventions(still.input);
   EXPECT_TRUE(s.as_declared) << s.verdict;
@@ -182,7 +182,8 @@ TEST(CheckConventions, DoesNotGuessWhereTheDataCannotTell) {
 }
 
 TEST(CheckConventions, ADepthScaleThatShrinksTheSceneDoesNotWin) {
-  // Slow motion and a noisy sensor: in metres the smallest scene errs least, relative to depth it must not.
+  // Slow motion and a noisy sensor: the smallest scene has the smallest error in metres, which must not decide; the
+  // error relative to depth does.
   const World slow = make_world(60, [](int i) {
     const SE3 T = hand_held(i);
     return SE3(T.rotation(), 0.3 * T.translation());
@@ -228,7 +229,7 @@ TEST(CheckConventions, CopesWithShortSequencesAndMissingPoses) {
 }
 
 TEST(CheckConventions, ShrinksTheGapUntilImagesOverlap) {
-  // 9 degrees a frame: after 20 frames the camera looks the other way.
+  // 9 degrees per frame: after 20 frames the camera looks in the opposite direction.
   const World spin = make_world(60, [](int i) {
     return SE3(so3_exp(Eigen::Vector3d(0.02 * std::sin(0.3 * i), 0.157 * i, 0.0)),
                Eigen::Vector3d(0.3 * std::sin(0.2 * i), 0.1 * std::cos(0.15 * i), 0.2 * std::sin(0.11 * i)));
@@ -242,7 +243,7 @@ TEST(CheckConventions, ShrinksTheGapUntilImagesOverlap) {
 }
 
 TEST(CheckConventions, AGapWithoutOverlapIsNotTakenForAMisfit) {
-  // Fast enough that wrong conventions overlap by chance after 20 frames, and the right one does not.
+  // So fast that after 20 frames images overlap by chance under wrong conventions, but not under the right one.
   const World fast = make_world(60, [](int i) {
     return SE3(so3_exp(Eigen::Vector3d(0.02 * std::sin(0.3 * i), 0.1 * i, 0.0)),
                Eigen::Vector3d(0.8 * std::sin(0.2 * i), 0.1 * std::cos(0.15 * i), 0.9 * std::sin(0.11 * i)));
@@ -254,7 +255,7 @@ TEST(CheckConventions, AGapWithoutOverlapIsNotTakenForAMisfit) {
 }
 
 TEST(CheckConventions, AMisfitIsNotHiddenBySmallerGaps) {
-  // A wrong focal length: little motion would hide it.
+  // A wrong focal length, whose effect would be small for little motion.
   ConventionInput input = room().input;
   input.camera.fx *= 1.4;
   input.camera.fy *= 1.4;

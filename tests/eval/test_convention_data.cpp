@@ -19,14 +19,14 @@ namespace {
 
 struct DataSet {
   const char* name;
-  double max_error_mm;  // of the right convention
-  bool shift_told;      // whether a shift of the ids and ...
-  bool scale_told;      // ... a wrong depth scale can be found out from it
+  double max_error_mm;  // with the right convention
+  bool shift_told;      // whether the set decides a shift of the ids and ...
+  bool scale_told;      // ... a wrong depth scale
 };
 
 std::ostream& operator<<(std::ostream& out, const DataSet& set) { return out << set.name; }
 
-// The sets' README gives the errors at a gap of 20 frames: 2.0, 1.0, 0.6, 0.6, 8.7 mm.
+// The limits are slightly above the errors in the sets' README at a gap of 20 frames: 2.0, 1.0, 0.6, 0.6, 8.7 mm.
 const DataSet data_sets[] = {
     {"icl_office_kt3", 2.5, true, true},
     {"icl_office_traj3_frei_png", 1.5, true, true},
@@ -34,14 +34,14 @@ const DataSet data_sets[] = {
     {"aug_icl_livingroom1_redwood", 1.0, true, true},
     {"7scenes_redkitchen", 10.0, true, true},
     {"7scenes_redkitchen_official", 10.0, false, false},  // twelve frames of slow motion
-    {"tum_fr1_rpy_short", 25.0, false, false},            // eight frames, little but rotation
+    {"tum_fr1_rpy_short", 25.0, false, false},            // eight frames, mostly rotation
     {"replica_office0_short", 2.0, false, true},
-    // 4 degrees a frame: images overlap too little at the gap asked for.
+    // 4 degrees per frame: images overlap too little at the default gap.
     {"hololens_kitchen", 12.0, true, true},
 };
 
-// The poses of a TUM sequence at the times of its depth images. Its depth is taken some 10 ms before the colour image
-// it goes with, and Sequence gives poses at the times of colour: a third of a frame off, which the check would see.
+// The poses of a TUM sequence at the times of its depth images. Each was taken some 10 ms before its colour image, and
+// Sequence gives poses at the times of colour. The difference of a third of a frame would affect the check.
 std::vector<std::optional<SE3>> poses_at_depth(const std::string& folder, const Trajectory& truth) {
   std::vector<std::optional<SE3>> poses;
   std::ifstream list(folder + "/depth.txt");

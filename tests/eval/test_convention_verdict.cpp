@@ -20,7 +20,8 @@ ConventionRow row(int shift, double scale, double error) {
   return r;
 }
 
-// Few images: another shift with the declared scale fits as well as another scale with the declared shift.
+// Few images: another shift with the declared scale fits as well as another scale with the declared shift, so neither
+// is reported as wrong.
 TEST(JudgeConventions, DeniesNoPartThatAnotherOneMayExplain) {
   const Camera camera{160, 120, 130.0, 128.0, 79.0, 60.5};
   ConventionReport report;
@@ -31,7 +32,7 @@ TEST(JudgeConventions, DeniesNoPartThatAnotherOneMayExplain) {
   EXPECT_THAT(report.verdict, HasSubstr("the data do not agree with what is declared"));
   EXPECT_THAT(report.verdict, Not(HasSubstr("not 0 as the file says")));
   EXPECT_THAT(report.verdict, HasSubstr("0 with depth scale 5000"));
-  // Without that scale the shift is what is wrong.
+  // If no other scale fits, the shift is reported as wrong.
   report = {};
   report.declared = {1, false, 0, 1000.0};
   report.rows = {row(-1, 1000.0, 0.0050), row(1, 1000.0, 0.0051), row(0, 1000.0, 0.0109)};

@@ -75,9 +75,9 @@ TEST(DepthEdgeMask, MarksThePixelsNearASteepStep) {
     for (int x = 0; x < 30; ++x) EXPECT_EQ(mask(y, x) != 0, x >= 12 && x < 18) << x;
   }
   EXPECT_EQ(cv::countNonZero(depth_edge_mask(DepthImage(20, 30, 2.0F))), 0);
-  depth.colRange(15, 30) = 2.05F;  // gentler than the step asked for
+  depth.colRange(15, 30) = 2.05F;  // a smaller step than the mask's threshold
   EXPECT_EQ(cv::countNonZero(depth_edge_mask(depth)), 0);
-  depth.colRange(15, 30) = 0.0F;  // no depth, no edge
+  depth.colRange(15, 30) = 0.0F;  // missing depth is not an edge
   EXPECT_EQ(cv::countNonZero(depth_edge_mask(depth)), 0);
 }
 
@@ -157,7 +157,7 @@ TEST(DepthMetrics, CountsErrorsWithinTheirSigmas) {
   DepthMetrics metrics;
   const DepthImage truth = (DepthImage(1, 6) << 1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 1.0F);
   const DepthImage estimate = (DepthImage(1, 6) << 1.005F, 0.985F, 1.025F, 1.5F, 1.5F, 0.0F);
-  // Unknown for the fifth, no estimate for the sixth.
+  // sigma is unknown for the fifth pixel, and the sixth has no estimate.
   const cv::Mat1f sigma = (cv::Mat1f(1, 6) << 0.01F, 0.01F, 0.01F, 0.01F, 0.0F, 0.01F);
   metrics.add(estimate, truth, {}, sigma);
   const DepthErrors errors = metrics.result();

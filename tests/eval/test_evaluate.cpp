@@ -26,7 +26,7 @@ Trajectory at_times(const std::vector<double>& times) {
   return trajectory;
 }
 
-// A path with curves in all directions, 30 poses a second.
+// A path with curves in all directions, 30 poses per second.
 Trajectory path(int n) {
   Trajectory trajectory;
   for (int i = 0; i < n; ++i) {
@@ -49,7 +49,7 @@ TEST(Percentile, InterpolatesBetweenNeighbors) {
   EXPECT_DOUBLE_EQ(percentile(v, 0.0), 1.0);
   EXPECT_DOUBLE_EQ(percentile(v, 100.0), 16.0);
   EXPECT_DOUBLE_EQ(percentile(v, 50.0), 4.0);
-  EXPECT_DOUBLE_EQ(percentile(v, 90.0), 8.0 + 0.6 * 8.0);  // place 3.6
+  EXPECT_DOUBLE_EQ(percentile(v, 90.0), 8.0 + 0.6 * 8.0);  // at position 3.6 of 0..4
   EXPECT_DOUBLE_EQ(percentile({}, 50.0), 0.0);
 }
 
@@ -135,7 +135,7 @@ TEST(Evaluate, Sim3FindsTheScale) {
 }
 
 TEST(Evaluate, RelativeErrorsOfASingleJumpByHand) {
-  // Twelve poses one metre apart, the second half turned by 90 degrees and moved aside by 2 m.
+  // Twelve poses one metre apart; the second half is turned by 90 degrees and moved sideways by 2 m.
   Trajectory truth;
   Trajectory estimate;
   for (int i = 0; i < 12; ++i) {
@@ -148,12 +148,12 @@ TEST(Evaluate, RelativeErrorsOfASingleJumpByHand) {
   EvalOptions options;
   EvalResult r = evaluate(estimate, truth, options);
   EXPECT_EQ(r.rte_m.count, 11U);
-  EXPECT_NEAR(r.rte_m.max, std::hypot(1.0, 3.0), 1e-12);  // (5, 3) where (6, 0) was due
+  EXPECT_NEAR(r.rte_m.max, std::hypot(1.0, 3.0), 1e-12);  // the step is (5, 3) instead of (6, 0)
   EXPECT_NEAR(r.rre_deg.max, 90.0, 1e-9);
   EXPECT_NEAR(r.rre_deg.rmse, 90.0 / std::sqrt(11.0), 1e-9);
   options.delta = 4;
   r = evaluate(estimate, truth, options);
-  EXPECT_EQ(r.rte_m.count, 2U);  // 0-4, 4-8
+  EXPECT_EQ(r.rte_m.count, 2U);  // steps 0-4 and 4-8
   EXPECT_NEAR(r.rre_deg.mean, 45.0, 1e-9);
   options.all_pairs = true;
   r = evaluate(estimate, truth, options);
@@ -190,7 +190,7 @@ TEST(Evaluate, CoverageCountsAgainstBoth) {
   EXPECT_DOUBLE_EQ(evaluate(estimate, truth, {}).coverage, 10.0 / 70.0);
 }
 
-// A single pair must not pass for the whole.
+// If only few poses are matched, the result names the reason.
 TEST(Evaluate, SaysWhyUnderHalfIsMatched) {
   const struct {
     double factor;

@@ -19,9 +19,9 @@ using testing::HasSubstr;
 
 const Camera camera{240, 180, 200.0, 200.0, 119.5, 89.5};
 
-// Boards before a wall, seen by a depth camera and a colour camera that may differ.
+// Boards in front of a wall, seen by a depth camera and a colour camera that may differ.
 struct Board {
-  double left, right, top, bottom;  // of the tangents of the rays
+  double left, right, top, bottom;  // tangents of the rays to its edges
   float depth;                      // [m]
   float gray;
 };
@@ -39,7 +39,7 @@ std::vector<Board> boards_of(std::size_t image) {
   return boards;
 }
 
-// The nearest board along the ray of a pixel; nullptr: the wall.
+// The nearest board along a pixel's ray; nullptr: the wall.
 const Board* board_at(const std::vector<Board>& boards, double x, double y) {
   const Board* nearest = nullptr;
   for (const Board& b : boards) {
@@ -72,7 +72,7 @@ RegistrationInput scene(double focal_factor, double shift_x, double shift_y) {
       for (int x = 0; x < gray.cols; ++x) {
         const Eigen::Vector3d ray = camera.ray(x - shift_x, y - shift_y) / focal_factor;
         const Board* board = board_at(boards, ray.x(), ray.y());
-        // Texture that depth knows nothing of, and noise.
+        // Texture without depth edges, and noise.
         const double waves = 0.06 * std::sin(40.0 * ray.x() + 25.0 * ray.y()) + 0.05 * std::sin(70.0 * ray.y());
         gray(y, x) = (board ? board->gray : 0.5F) + static_cast<float>(waves + 0.01 * random.normal());
       }

@@ -9,7 +9,7 @@
 namespace odosplat {
 namespace {
 
-/// Grey that rises by so many levels of 255 a pixel for x in the given columns, and is even elsewhere.
+/// Grey that increases by `levels` (of 255) per pixel in columns from..to and is constant elsewhere.
 GrayImage ramp(int width, int height, int from, int to, float levels) {
   GrayImage image(height, width);
   for (int y = 0; y < height; ++y) {
@@ -21,7 +21,7 @@ GrayImage ramp(int width, int height, int from, int to, float levels) {
 }
 
 TEST(Texture, CountsPixelsThatAreSteepEnough) {
-  // Central differences: columns 21..29 see the whole slope, 20 and 30 the half of it.
+  // Central differences: columns 21..29 have the whole slope, 20 and 30 half of it.
   const TextureStatistic steep = texture_statistic(ramp(66, 34, 20, 30, 9.0F));
   EXPECT_NEAR(steep.share, 9.0 / 64.0, 1e-9);
   EXPECT_DOUBLE_EQ(texture_statistic(ramp(66, 34, 20, 30, 7.0F)).share, 0.0);
@@ -30,7 +30,7 @@ TEST(Texture, CountsPixelsThatAreSteepEnough) {
 
 TEST(Texture, TellsBlocksApart) {
   const TextureStatistic s = texture_statistic(ramp(70, 40, 20, 30, 9.0F));
-  ASSERT_EQ(s.block_shares.size(), 2U);  // what is left of 70 x 40 makes no block
+  ASSERT_EQ(s.block_shares.size(), 2U);  // the rest of 70 x 40 is smaller than a block
   EXPECT_NEAR(s.block_shares[0], 9.0 / 31.0, 1e-9);
   EXPECT_DOUBLE_EQ(s.block_shares[1], 0.0);
 }

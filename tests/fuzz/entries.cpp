@@ -73,7 +73,8 @@ void demand_points(const PointCloud& cloud) {
   for (const Eigen::Vector3f& c : cloud.colors) demand(c.minCoeff() >= 0.0F && c.maxCoeff() <= 1.0F, "colours 0..1");
 }
 
-// PCD and LAS are told by their first bytes as well as by the name: others than the one meant may turn up.
+// PCD and LAS are recognised by their first bytes as well as by the name: another format than the intended one may be
+// read.
 void cloud(const char* name, const std::string& bytes) {
   set_log_level("off");
   read_or_refuse([&] {
@@ -89,7 +90,7 @@ void cloud(const char* name, const std::string& bytes) {
 
 }  // namespace
 
-// The container only: the decoders are not ours, and their work would hide ours.
+// Only the container is checked: decoding, by external libraries, would take most of the time.
 void image(const std::string& bytes) {
   read_or_refuse([&] {
     const ImageContainer container = inspect_image("fuzz", bytes);

@@ -6,8 +6,8 @@
 
 namespace odosplat::fuzz {
 
-/// What the fuzzers and the replay of their corpus call: any bytes are read or refused with an InputError of one line;
-/// any other exception, and a result that breaks its contract, ends the program.
+/// Functions called by the fuzzers and by the replay of their corpus: any bytes must be read or refused with an
+/// InputError of one line. Any other exception, and a result that breaks its contract, aborts the program.
 void image(const std::string& bytes);
 void ply(const std::string& bytes);
 void trajectory(const std::string& bytes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Apart from entries.cpp: this one needs the splat room.
+// Separate from entries.cpp, because it needs the library splat.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// What holds for the whole tree: who may depend on whom (CONTRIBUTING.md's table, against the link lines of CMake and
-// every include), where includes point, names of types, sizes of folders, licences, who writes to the terminal.
+// Rules for the whole source tree: allowed dependencies (CONTRIBUTING.md's table, compared with CMake's link lines and
+// all includes), paths of includes, names of types, sizes of folders, licences, and which files write to the terminal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,8 +29,8 @@ const fs::path root = odosplat::test::source_dir();
 
 struct Room {
   std::string folder;
-  Names rooms;      // other rooms it may use
-  Names libraries;  // first part of the include paths of foreign libraries it may use
+  Names rooms;      // other folders that it may use
+  Names libraries;  // external libraries that it may use: first part of their include paths
 };
 
 std::string text_of(const fs::path& file) {
@@ -52,7 +52,7 @@ Names words_of(const std::string& cell) {
   return words;
 }
 
-// The table of CONTRIBUTING.md by the rooms' names, which are the last parts of their folders.
+// The table of CONTRIBUTING.md by the last parts of the folders' names.
 const std::map<std::string, Room>& house() {
   static const std::map<std::string, Room> rooms = [] {
     std::map<std::string, Room> found;
@@ -89,7 +89,7 @@ std::vector<std::string> includes_of(const std::string& text) {
   return found;
 }
 
-// "" for the standard library and POSIX, else the library's name as the table has it.
+// The library's name as in the table; "" for the standard library and POSIX.
 std::string library_of(const std::string& include) {
   static const std::regex foreign(
       R"re((Eigen|opencv2/\w+|ceres|libav\w+|libsw\w+|CL|EGL|GL|spdlog|yaml-cpp|nlohmann|tbb|zlib|CLI|gtest|gmock)[/.].*)re");
@@ -100,7 +100,7 @@ std::string library_of(const std::string& include) {
   return "";
 }
 
-// Of an include by quotes: relative to lib or to the repository, whichever has it; empty: neither.
+// File of a quoted include, relative to lib or to the repository; empty: not found.
 fs::path file_of(const std::string& include) {
   for (const fs::path& base : {root / "lib", root}) {
     if (fs::is_regular_file(base / include)) return base / include;
@@ -115,7 +115,7 @@ std::vector<std::string> quoted_includes_of(const std::string& text) {
   return found;
 }
 
-// Room of a path from the repository, or of an include; "" for none.
+// Folder in the table for a path from the repository or an include; "" for none.
 std::string room_of(const std::string& path) {
   static const std::regex own(R"re((?:lib/)?odosplat/(\w+)/.*|(viewer|kernels|apps)/.*)re");
   std::smatch match;
@@ -152,7 +152,7 @@ TEST(House, IncludesKeepToTheTable) {
   EXPECT_GT(own, 1000);
 }
 
-// In an editor, before anything is configured: the path of a header is the path of its file.
+// The path of an include is the path of its file, so that editors find it before anything is configured.
 TEST(House, IncludesResolveInTheRepository) {
   for (const char* folder : {"kernels", "lib", "viewer", "apps", "tests"}) {
     for (const fs::path& file : sources_in(folder)) {
@@ -165,7 +165,8 @@ TEST(House, IncludesResolveInTheRepository) {
   EXPECT_NE(flags.find("-Ilib\n-I.\n"), std::string::npos);
 }
 
-// A header with its source file is one module: two modules that need each other are one, or want a third.
+// A header and its source file are one module. Modules must not include each other in a circle: they should be merged,
+// or their common part be moved to a third.
 TEST(House, IncludesMakeNoCircle) {
   std::map<std::string, Names> needs;  // by path without extension
   for (const char* folder : code_folders) {
@@ -179,8 +180,7 @@ TEST(House, IncludesMakeNoCircle) {
       }
     }
   }
-  // What is left when modules that need nothing that is left are taken away, again and again, is in a circle or needs
-  // one.
+  // Repeatedly removes the modules that need none of the remaining ones. Those left are in a circle or need one that is.
   for (bool changed = true; changed;) {
     changed = false;
     for (auto it = needs.begin(); it != needs.end();) {
@@ -219,12 +219,12 @@ TEST(House, FoldersHoldAtMost15Sources) {
   }
 }
 
-// The text without comments, strings and characters, which may hold braces and words.
+// The text without comments, strings and characters, since these may contain braces and keywords.
 std::string bare(const std::string& text) {
   std::string kept;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto starts = [&](const char* word) { return text.compare(i, std::strlen(word), word) == 0; };
-    std::size_t last = std::string::npos;  // of what is left out
+    std::size_t last = std::string::npos;  // last character of the part left out
     if (starts("//")) {
       last = text.find('\n', i);
     } else if (starts("/*")) {
@@ -245,11 +245,11 @@ std::string bare(const std::string& text) {
   return kept;
 }
 
-// Names, with their namespaces, of the types that a file defines outside functions, types and unnamed namespaces.
+// Qualified names of the types that a file defines, except within functions, types and unnamed namespaces.
 std::vector<std::string> types_defined_in(const std::string& text) {
   static const std::regex token(
       R"re(\bnamespace\s*([\w:]*)\s*\{|\b(?:struct|class|enum class|enum|union)\s+(?:alignas\([^)]*\)\s*)?([\w:]+)[^;{}()=<>]*(?:<[^;{}()]*)?\{|\{|\})re");
-  std::vector<std::string> scopes;  // "" where types are not counted
+  std::vector<std::string> scopes;  // "" for a scope whose types are not counted
   std::vector<std::string> found;
   const std::string code = bare(text);
   for (std::sregex_iterator it(code.begin(), code.end(), token), end; it != end; ++it) {
@@ -279,7 +279,7 @@ TEST(House, FindsTypesOnlyWhereTheyAreDefinedForAll) {
       testing::ElementsAre("a::b::One", "a::b::Three", "a::b::Six"));
 }
 
-// Two types of one name in one program are undefined behavior, whichever libraries they are in.
+// Two types with the same name in one program are undefined behaviour, even in different libraries.
 TEST(House, TypeNamesAreUnique) {
   std::map<std::string, std::string> places;
   for (const char* folder : code_folders) {
@@ -302,7 +302,7 @@ TEST(House, ModulesDoNotKnowTheOdometry) {
   }
 }
 
-// Paths in the documents, `in/code` or [as](links), are of files and folders that exist.
+// All paths in the documents, in `code` or as [link](target), must exist.
 TEST(House, DocumentsNameWhatExists) {
   static const std::regex path(R"re([`(]((?:lib|kernels|apps|viewer|tests|data|docs)/[\w./-]*)[`)])re");
   int named = 0;
@@ -319,13 +319,14 @@ TEST(House, DocumentsNameWhatExists) {
   EXPECT_GT(named, 30);
 }
 
-// The README is one screen of reading; the rest is in docs.
+// The README must be short; details are in docs.
 TEST(House, TheReadmeIsShort) {
   const std::string text = text_of(root / "README.md");
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 120);
 }
 
-// Text of files must not reach a terminal raw: these files escape it. A user's program in one file is no part of ours.
+// Text from files must be escaped before it is written to a terminal: only these files write to it. The example of a
+// user's program is an exception.
 TEST(House, StandardStreamsAreWrittenInFewPlaces) {
   const Names places{"apps/command/output.cpp",    "apps/command/support.cpp",      "apps/command/run_program.cpp",
                      "apps/command/interrupt.cpp", "apps/example/track_images.cpp", "lib/odosplat/core/progress.cpp"};

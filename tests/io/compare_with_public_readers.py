@@ -25,7 +25,7 @@ COUNT = 200
 
 
 def made_cloud():
-    """COUNT points [m] and colours 0..65535, one of them full, so that readers can tell the range."""
+    """COUNT points [m] and colours 0..65535; one has the maximum, so that readers can recognise the range."""
     import numpy as np
     rng = np.random.default_rng(1)
     points = np.round(rng.uniform(-5.0, 5.0, (COUNT, 3)), 3)
@@ -41,7 +41,7 @@ def run_odosplat(odosplat, *arguments):
 
 
 def differences_of_cloud(odosplat, source, points, colors, scratch):
-    """colors: 0..1, or None where the file has none. The result is written with floats and 8 bits a channel."""
+    """colors: 0..1, or None if the file has none. The result is written with floats and 8 bits per channel."""
     import numpy as np
     from plyfile import PlyData
     target = os.path.join(scratch, "read.ply")
@@ -138,7 +138,7 @@ def rotation_of(x, y, z, w):
 
 
 def differences_of_model(odosplat, folder, images, cloud, scratch):
-    """The cloud is the model's own points, so that align finds the identity but for rounding."""
+    """The cloud consists of the model's own points, so that align finds the identity except for rounding."""
     import numpy as np
     out = os.path.join(scratch, "aligned")
     run_odosplat(odosplat, "align", "--poses", folder, "--cloud", cloud, "--guess", "1 0 0 0 0 0 0 1", "--out", out)
@@ -157,7 +157,7 @@ def differences_of_model(odosplat, folder, images, cloud, scratch):
             faults.append(f"{name}: the pose is off by {off:.2e}")
     with open(os.path.join(out, "camera.yaml"), encoding="ascii") as file:
         camera = dict(line.strip().split(": ", 1) for line in file)
-    # Pixels are counted from the corner of the first there, from its centre here.
+    # The origin of pixel coordinates is the corner of the first pixel in COLMAP, but its centre in odosplat.
     wanted = {"width": 64, "height": 48, "fx": 60.0, "fy": 61.0, "cx": 31.75, "cy": 24.0}
     faults += [f"{key} is {camera[key]}, must be {value}" for key, value in wanted.items() if float(camera[key]) != value]
     if [float(v) for v in camera["distortion"].strip("[]").split(",")][:4] != [0.01, -0.002, 0.001, -0.0015]:

@@ -18,7 +18,7 @@
 
 namespace odosplat::test {
 
-/// A folder of its own that goes when the test ends.
+/// A temporary folder, removed when the test ends.
 class TempFolder {
  public:
   TempFolder() {
@@ -34,7 +34,7 @@ class TempFolder {
   std::string operator/(const std::string& name) const { return (path_ / name).string(); }
   std::string path() const { return path_.string(); }
 
-  /// Writes a file, making its folders; returns its path.
+  /// Writes a file and creates its folders; returns its path.
   std::string put(const std::string& name, const std::string& content) const {
     const std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
@@ -42,14 +42,14 @@ class TempFolder {
     return file.string();
   }
 
-  /// Encodes an image by the extension of the name.
+  /// Encodes an image in the format of the name's extension.
   std::string put_image(const std::string& name, const cv::Mat& bgr) const {
     std::vector<unsigned char> bytes;
     cv::imencode(name.substr(name.rfind('.')), bgr, bytes);
     return put(name, std::string(bytes.begin(), bytes.end()));
   }
 
-  /// Names of all files below, to prove that nothing was left behind.
+  /// Names of all files below, to check that nothing is left over.
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path_)) {
@@ -62,7 +62,7 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
-/// Message of the InputError that `call` throws; fails the test if it throws none, or one of several lines.
+/// Message of the InputError that `call` throws. The test fails if it throws none, or one with several lines.
 template <typename Call>
 std::string error_of(Call call) {
   try {
@@ -76,7 +76,7 @@ std::string error_of(Call call) {
   return "";
 }
 
-/// Copies a folder or file of the shared data; false if it is not there.
+/// Copies a folder or file of the shared data; false if it does not exist.
 inline bool copy_shared(const std::string& name, const std::string& to) {
   const std::filesystem::path from = std::filesystem::path(shared_data()) / name;
   if (!std::filesystem::exists(from)) return false;
@@ -87,7 +87,7 @@ inline bool copy_shared(const std::string& name, const std::string& to) {
 
 }  // namespace odosplat::test
 
-/// Path of a shared data set, or skips the test.
+/// Path of a shared data set; skips the test if it does not exist.
 #define SHARED_DATA_OR_SKIP(variable, name)                                  \
   const std::string variable = odosplat::test::shared_data() + "/" + (name); \
   if (!std::filesystem::exists(variable)) GTEST_SKIP() << "no shared data set " << variable

@@ -76,7 +76,7 @@ TEST(AtomicFile, NamesThePathThatCannotBeWritten) {
   EXPECT_EQ(read_file(temp / "file"), "content");
 }
 
-// Not even root may make files there.
+// Not even root can create files there.
 TEST(AtomicFile, ReportsAFolderThatTakesNoFiles) {
   if (!std::filesystem::is_directory("/proc")) GTEST_SKIP() << "no /proc";
   EXPECT_THAT(error_of([] { write_file_atomically("/proc/odosplat/x", "x"); }),
@@ -235,7 +235,7 @@ TEST_F(Leftovers, AreNothingElse) {
   std::filesystem::create_symlink(temp_ / names[0], temp_ / linked);
   ensure_output_file(temp_ / "map.ply").keep();
   ensure_output_folder(temp_.path()).keep();
-  EXPECT_EQ(temp_.files().size(), names.size() + 1);  // and the link to one
+  EXPECT_EQ(temp_.files().size(), names.size() + 1);  // and the symbolic link to one of them
   EXPECT_TRUE(std::filesystem::is_directory(temp_ / name_));
   EXPECT_TRUE(std::filesystem::is_symlink(temp_ / linked));
 }
@@ -296,7 +296,7 @@ TEST(ReadFile, NamesWhatItCannotRead) {
   EXPECT_EQ(read_file(temp.put("empty", "")), "");
 }
 
-// None of them is waited for, and none is read until the memory is full.
+// Reading must neither wait for such a file nor continue until the memory is full.
 TEST(ReadFile, ReadsRegularFilesOnly) {
   const TempFolder temp;
   const std::string fifo = temp / "fifo";
@@ -320,9 +320,9 @@ TEST(ReadFile, HoldsNoMoreThanItsLimit) {
   const std::string file = temp.put("file", "12345");
   EXPECT_EQ(read_file(file, 5), "12345");
   EXPECT_THAT(error_of([&] { read_file(file, 4); }), HasSubstr(file + ": is larger than"));
-  std::filesystem::resize_file(file, max_text_bytes + 1);  // a hole: no space on the disk
+  std::filesystem::resize_file(file, max_text_bytes + 1);  // a sparse file: uses no space on the disk
   EXPECT_EQ(error_of([&] { read_file(file); }), file + ": is larger than the 256 MB that such a file may have");
-  // Says that it has no bytes, and has some.
+  // A file whose size is given as 0 although it has content.
   EXPECT_THAT(error_of([] { read_file("/proc/self/maps", 100); }), HasSubstr("/proc/self/maps: is larger than"));
 }
 

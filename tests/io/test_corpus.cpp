@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Replays the seeds and kept findings of the fuzzers: whoever breaks a contract aborts this program.
+// Replays the seeds and kept findings of the fuzzers: a violated contract aborts this program.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -10,7 +10,7 @@
 
 namespace odosplat {
 
-/// What the tests of views of a point cloud share.
+/// Shared by the tests of views of a point cloud.
 
 inline const Camera camera_320{320, 240, 240.0, 240.0, 159.5, 119.5};
 
@@ -24,7 +24,8 @@ struct Plane {
   }
 };
 
-/// The list of every MapView, for a cloud seen from the origin and from so close that a few points fill the view.
+/// Runs the checks of every MapView for a cloud, seen from the origin and from so close that a few points fill the
+/// view.
 template <typename View>
 void check_cloud_view(const PointCloud& cloud) {
   View view(cloud);
@@ -34,7 +35,7 @@ void check_cloud_view(const PointCloud& cloud) {
   check_map_view(view, camera_320, SE3(Eigen::Quaterniond::Identity(), close));
 }
 
-/// Clouds of nothing, of nothing in view, of nothing finite, and of one point many times.
+/// Checks clouds without points, without points in view, without finite points, and with all points in one place.
 template <typename View>
 void check_views_of_poor_clouds() {
   View empty(PointCloud{});

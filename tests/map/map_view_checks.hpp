@@ -16,7 +16,7 @@
 
 namespace odosplat {
 
-/// What every MapView must keep, whatever it is made of. A view's tests call each once.
+/// Requirements that every MapView must meet. The tests of each view call each check once.
 
 inline bool same_bits(const cv::Mat& a, const cv::Mat& b) {
   if (a.size() != b.size() || a.type() != b.type()) return false;
@@ -33,7 +33,7 @@ inline void expect_same_bits(const ViewImages& a, const ViewImages& b) {
   EXPECT_TRUE(same_bits(a.color, b.color));
 }
 
-/// Sizes and values of one answer.
+/// Checks sizes and values of rendered images.
 inline void expect_well_formed(const ViewImages& images, const Camera& camera, const ViewRequest& request) {
   const cv::Size size(camera.width, camera.height);
   ASSERT_EQ(images.depth.size(), size);
@@ -70,7 +70,7 @@ inline void expect_well_formed(const ViewImages& images, const Camera& camera, c
   EXPECT_EQ(bad_color, 0) << "colour that is not finite";
 }
 
-/// Some pixels, one of them twice, are those of the whole image.
+/// Checks that some pixels, one of them twice, equal those of the whole image.
 inline void check_map_view_pixels(MapView& view, const Camera& camera, const SE3& T_world_camera) {
   const std::vector<cv::Point> pixels{{0, 0},
                                       {camera.width - 1, camera.height - 1},
@@ -96,8 +96,8 @@ inline void check_map_view_pixels(MapView& view, const Camera& camera, const SE3
   EXPECT_THROW(view.render_pixels(camera, T_world_camera, all, {{0, -1}}), InputError);
 }
 
-/// A view with something in sight of T_world_camera: sizes that are no round numbers, images asked for and not,
-/// the same call twice with another call between, one thread and several, some pixels.
+/// Checks a view with visible surfaces from T_world_camera: all requested images and none but depth, repeated calls,
+/// one thread and several, and some pixels. The camera should have an unusual size.
 inline void check_map_view(MapView& view, const Camera& camera, const SE3& T_world_camera) {
   EXPECT_FALSE(view.name().empty());
   const ViewRequest all{true, true};
@@ -117,7 +117,7 @@ inline void check_map_view(MapView& view, const Camera& camera, const SE3& T_wor
   check_map_view_pixels(view, camera, T_world_camera);
 }
 
-/// The same view at sizes down to one pixel. Not for views bound to one size.
+/// Checks the same view at sizes down to one pixel. Not for views with a fixed size.
 inline void check_map_view_sizes(MapView& view, const Camera& camera, const SE3& T_world_camera) {
   for (const auto& [width, height] : {std::pair{1, 1}, {17, 13}, {3, 50}}) {
     const Camera other = camera.resized(width, height);
@@ -126,7 +126,7 @@ inline void check_map_view_sizes(MapView& view, const Camera& camera, const SE3&
   }
 }
 
-/// A view with nothing in sight gives zeros.
+/// Checks that a view without visible surfaces gives zeros.
 inline void check_empty_map_view(MapView& view, const Camera& camera, const SE3& T_world_camera) {
   const ViewRequest all{true, true};
   const ViewImages images = view.render(camera, T_world_camera, all);

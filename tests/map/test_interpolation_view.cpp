@@ -17,7 +17,7 @@
 namespace odosplat {
 namespace {
 
-// Points on the parallelogram corner + a s + b t, one a cell of about `spacing`, at a random place in it.
+// Points on the parallelogram corner + a s + b t: one at a random place in each cell of about `spacing`.
 void add_patch(PointCloud& cloud, const Eigen::Vector3d& corner, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                double spacing, Random& random) {
   const int n = static_cast<int>(std::ceil(a.norm() / spacing));
@@ -69,11 +69,11 @@ const cv::Rect whole(0, 0, 320, 240);
 
 TEST(InterpolationView, IsExactOnSlantedPlanesWithoutNoise) {
   const SE3 T_world_camera = SE3::exp((Vector6d() << 0.2, -0.1, 0.3, 0.1, -0.05, 0.2).finished());
-  for (const double slant : {0.0, 0.5, 1.0, 1.2}) {  // [rad] at 1.2 the depth changes by 2.6 m for a metre aside
+  for (const double slant : {0.0, 0.5, 1.0, 1.2}) {  // [rad]; at 1.2 the depth changes by 2.6 m per metre to the side
     const Plane plane{Eigen::Vector3d(std::sin(slant), 0.0, std::cos(slant)), 2.5 * std::cos(slant)};
     InterpolationView view(slanted_plane(plane, 0.03, 0.0, 1));
     const DepthImage depth = view.render(camera_320, T_world_camera, {}).depth;
-    // Where the plane is at most 5 m off: beyond, it ends.
+    // Only pixels where the plane is at most 5 m away, because the cloud ends beyond that.
     double share = 0.0;
     int wrong = 0;
     int in_reach = 0;
@@ -123,7 +123,7 @@ TEST(InterpolationView, SeesTheInsideOfABox) {
   };
   const Errors e = compare(images.depth, truth, whole);
   EXPECT_LT(e.median, 1e-4);
-  EXPECT_LT(e.worst, 0.1);  // in the corners, by three spacings
+  EXPECT_LT(e.worst, 0.1);  // at the room's edges, three times the spacing
   EXPECT_GT(e.coverage, 0.98);
 }
 
@@ -147,7 +147,7 @@ TEST(InterpolationView, LeavesHolesEmpty) {
 }
 
 TEST(InterpolationView, HidesWhatIsBehind) {
-  // A board of 1 x 0.8 m at 1.5 m before a wall at 3 m.
+  // A board of 1 x 0.8 m at 1.5 m in front of a wall at 3 m.
   Random random(5);
   PointCloud cloud;
   add_patch(cloud, {-4, -4, 3}, {8, 0, 0}, {0, 8, 0}, 0.02, random);
@@ -165,7 +165,7 @@ TEST(InterpolationView, HidesWhatIsBehind) {
     EXPECT_LT(back.worst, 1e-3);
     EXPECT_GT(back.coverage, 0.99);
   }
-  // Between the two nothing is invented: every pixel is on the board, on the wall, or empty.
+  // No depth in between: every pixel is on the board, on the wall, or empty.
   int between = 0;
   for (const float z : depth) between += z > 0.0F && std::abs(z - 1.5F) > 0.01F && std::abs(z - 3.0F) > 0.01F;
   EXPECT_EQ(between, 0);
@@ -244,7 +244,7 @@ TEST(InterpolationView, RendersADenseViewInTime) {
   }
   RecordProperty("best_ms", static_cast<int>(1000.0 * best));
   std::printf("100k points, 320x240: %.1f ms\n", 1000.0 * best);
-  EXPECT_LT(best, 1.0);  // tens of milliseconds when the machine is free; a second even under sanitizers
+  EXPECT_LT(best, 1.0);  // usually tens of milliseconds; the limit allows for sanitizers and other load
 }
 
 }  // namespace

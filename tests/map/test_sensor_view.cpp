@@ -21,7 +21,7 @@ TEST(SensorView, GivesTheDepthThatWasSet) {
   depth(4, 4) = -1.0F;
   SensorView view;
   view.set_depth(depth);
-  depth = 5.0F;  // the view keeps its own
+  depth = 5.0F;  // the view has its own copy
   const ViewImages images = view.render(camera_9, SE3(), {false, true});
   EXPECT_EQ(cv::countNonZero(images.depth), 63 - 3);
   EXPECT_EQ(images.depth(0, 0), 2.0F);

@@ -17,8 +17,8 @@
 namespace odosplat {
 namespace {
 
-// Points on the plane within `half` [m] of its point nearest to the origin, one a cell of `spacing`, at random in its
-// middle.
+// Points on the plane within `half` [m] of its point nearest to the origin: one in each cell of `spacing`, at a random
+// place near the cell's centre.
 PointCloud points_on(const Plane& plane, double half, double spacing, double noise, std::uint64_t seed) {
   Random random(seed);
   PointCloud cloud;
@@ -43,7 +43,7 @@ TEST(SurfelView, RaysMeetADiscExactly) {
     const Eigen::Vector3d n_camera(std::sin(slant), 0.1 * std::cos(slant), std::cos(slant));
     PointCloud cloud;
     cloud.points.emplace_back((T_world_camera * centre_camera).cast<float>());
-    // Away from the camera: discs have two sides. Longer than one: only the direction counts.
+    // The normal points away from the camera, since discs have two sides, and is not of unit length.
     cloud.normals.emplace_back((1.5 * (T_world_camera.rotation() * n_camera)).cast<float>());
     SurfelOptions options;
     options.radius = 0.4;
@@ -99,14 +99,14 @@ TEST(SurfelView, HidesWhatIsBehindAndFillsNothingBetween) {
   const PointCloud board = points_on({Eigen::Vector3d::UnitZ(), 1.5}, 0.5, 0.03, 0.0, 3);
   cloud.points.insert(cloud.points.end(), board.points.begin(), board.points.end());
   SurfelOptions options;
-  options.radius = 0.03;  // no gaps
+  options.radius = 0.03;  // large enough to leave no gaps
   SurfelView view(cloud, options);
   const DepthImage depth = view.render(camera_320, SE3(), {}).depth;
   int wrong = 0;
   for (int y = 0; y < 240; ++y) {
     for (int x = 0; x < 320; ++x) {
       const double outside =
-          std::max(std::abs(x - 159.5), std::abs(y - 119.5)) / 240.0 * 1.5 - 0.5;  // [m] of the board
+          std::max(std::abs(x - 159.5), std::abs(y - 119.5)) / 240.0 * 1.5 - 0.5;  // [m] distance outside the board
       if (outside < -0.03) wrong += std::abs(depth(y, x) - 1.5F) > 1e-3F;
       if (outside > 0.05) wrong += std::abs(depth(y, x) - 3.0F) > 1e-3F;
       wrong += depth(y, x) > 1.501F && depth(y, x) < 2.999F;
@@ -121,14 +121,14 @@ TEST(SurfelView, BelievesTheCloudsNormalsAndFitsMissingOnes) {
   SurfelView fitted(cloud);
   const DepthImage smooth = fitted.render(camera_320, SE3(), {}).depth;
   EXPECT_NEAR(smooth(120, 160), plane.depth(camera_320, SE3(), 160, 120), 1e-4);
-  // Facing the camera, each disc is a stair of its own.
+  // If all normals face the camera, the discs form steps.
   cloud.normals.assign(cloud.size(), Eigen::Vector3f::UnitZ());
   SurfelView stairs(cloud);
   const DepthImage stepped = stairs.render(camera_320, SE3(), {}).depth;
   double squares = 0.0;
   for (int x = 60; x < 260; ++x) squares += std::pow(stepped(120, x) - plane.depth(camera_320, SE3(), x, 120), 2);
   EXPECT_GT(std::sqrt(squares / 200), 0.002);
-  // Normals that are none are fitted.
+  // Invalid normals are replaced by fitted ones.
   cloud.normals.assign(cloud.size(), Eigen::Vector3f::Zero());
   cloud.normals[5].x() = std::nanf("");
   SurfelView mended(cloud);
@@ -214,7 +214,7 @@ TEST(SurfelView, RendersADenseViewInTime) {
   }
   RecordProperty("best_ms", static_cast<int>(1000.0 * best));
   std::printf("100k surfels, 640x480: %.1f ms\n", 1000.0 * best);
-  EXPECT_LT(best, 1.0);  // tens of milliseconds when the machine is free; a second even under sanitizers
+  EXPECT_LT(best, 1.0);  // usually tens of milliseconds; the limit allows for sanitizers and other load
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 namespace odosplat::test {
 
 double BoxRoom::texture(const Eigen::Vector3d& p) const {
-  // Waves of several directions, none along a wall's normal only; the finest is about 6 pixels long at 3 m.
+  // Waves of several directions, so that each wall has texture in both directions; the finest are about 6 pixels long
+  // at 3 m.
   const double s = detail;
   double value = 0.5;
   value += 0.12 * std::sin(s * (5.0 * p.x() + 3.0 * p.y() + 4.0 * p.z()));

@@ -9,17 +9,17 @@
 
 namespace odosplat::test {
 
-/// A box room seen from inside, its six walls painted with smooth sines: depth and colour are exact at every pixel, so
-/// that errors are the odometry's alone. Also a MapView.
+/// A box room seen from inside, with smooth sine waves on its six walls. Depth and colour are exact at every pixel, so
+/// that all errors are those of the odometry. Also a MapView.
 class BoxRoom : public MapView {
  public:
   Eigen::Vector3d half_size{2.5, 1.6, 3.0};  // [m]
   double detail = 1.0;                       // factor of the texture's spatial frequency
   bool with_depth = true;
   bool with_color = true;
-  double depth_factor = 1.0;  // of the rendered depth: a map of the wrong scale
-  double gamma = 1.0;         // of the rendered colours: a map in other colours
-  double mapped_from = -1e9;  // [m] the map shows only what lies at x of at least this
+  double depth_factor = 1.0;  // factor on the rendered depth: a map of the wrong scale
+  double gamma = 1.0;         // exponent of the rendered colours: a map with other colours
+  double mapped_from = -1e9;  // [m] the map shows only surfaces with at least this x
   int renders = 0;
 
   ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override;

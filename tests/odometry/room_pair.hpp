@@ -13,7 +13,7 @@
 
 namespace odosplat::test {
 
-/// A reference in the box room and images from a little way off, spoilt by the test.
+/// A reference in the box room and images from a pose nearby, disturbed by the test.
 class RoomPairTest : public testing::Test {
  protected:
   RoomPairTest() {
@@ -41,7 +41,8 @@ class RoomPairTest : public testing::Test {
   ImageAligner aligner_{{}};
 };
 
-/// Root mean square position error [m] of a run of 90 frames through the room, whose image number k is spoilt first.
+/// Root mean square position error [m] of a run of 90 frames through the room; `spoil` disturbs image k before it is
+/// tracked.
 inline double error_of_run(const OdometryOptions& options, const std::function<void(int k, GrayImage&)>& spoil) {
   constexpr int frames = 90;
   const Camera camera = small_camera();

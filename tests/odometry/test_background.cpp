@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Keyframes made on a thread of their own.
+// Keyframes made on the background thread.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A room that takes its time, waits while it is closed, or fails from one rendering on.
+/// A map whose rendering is slow, waits while `closed` is set, or fails from one rendering on.
 class SlowRoom : public test::BoxRoom {
  public:
   milliseconds pause{0};
@@ -46,7 +46,7 @@ class BackgroundOdometry : public testing::Test {
     return options;
   }
 
-  /// Plays `frames` images `spacing` apart, to the end.
+  /// Plays `frames` images at intervals of `spacing`, and finishes.
   void play(Odometry& odometry, int frames, milliseconds spacing) {
     for (int k = 0; k < frames; ++k) {
       live_.push_back(odometry.track(world_.gray(camera_, test::room_path(k)), k / 30.0));
@@ -106,7 +106,7 @@ TEST_F(BackgroundOdometry, TrackingDoesNotWaitForTheMap) {
   Odometry odometry(camera_, map, background(), test::room_path(0));
   odometry.track(world_.gray(camera_, test::room_path(0)), 0.0);
   map.pause = milliseconds(2000);
-  // The last of these is far enough away to make a keyframe due.
+  // The camera moves until a keyframe is due.
   int k = 1;
   while (map.begun < 2 && k < 60) {
     const TrackResult result = odometry.track(world_.gray(camera_, test::room_path(k)), k / 30.0);
@@ -120,8 +120,8 @@ TEST_F(BackgroundOdometry, TrackingDoesNotWaitForTheMap) {
 }
 
 TEST_F(BackgroundOdometry, FramesThatCameMeanwhileTakePartInACorrection) {
-  // Without colours the first keyframe stays where the caller said, 6 cm and 3 degrees off; the next one is put right,
-  // while frames go on against the first.
+  // Without colours the first keyframe keeps the start pose, which is wrong by 6 cm and 3 degrees. The next one is
+  // corrected by the map, while frames are still tracked against the first.
   SlowRoom map;
   map.with_color = false;
   OdometryOptions options = background();
@@ -174,7 +174,7 @@ TEST_F(BackgroundOdometry, AMapThatFailsAtOnceThrowsAtOnce) {
   map.fails_from = 0;
   Odometry odometry(camera_, map, background(), test::room_path(0));
   EXPECT_THROW(odometry.track(world_.gray(camera_, test::room_path(0)), 0.0), std::runtime_error);
-  // And it goes on where the map works again.
+  // It continues when the map works again.
   map.fails_from = 1 << 30;
   EXPECT_EQ(odometry.track(world_.gray(camera_, test::room_path(1)), 1 / 30.0).status, TrackStatus::ok);
 }
@@ -233,7 +233,7 @@ TEST(KeyframeThread, ANewerRequestReplacesOneThatWaits) {
         std::make_shared<FramePyramid>(build_frame_pyramid(camera, map.gray(camera, r.frame.T_world_camera))));
     return r;
   };
-  // While it renders ahead, requests wait.
+  // Requests wait while a view is rendered ahead.
   thread.prefetch(test::room_path(50));
   while (map.begun == 0) std::this_thread::yield();
   EXPECT_TRUE(thread.request(request(1)));
@@ -243,10 +243,10 @@ TEST(KeyframeThread, ANewerRequestReplacesOneThatWaits) {
   EXPECT_EQ(finished->request.frame.number, 2);
   EXPECT_EQ(finished->request.id, 0);
   ASSERT_TRUE(finished->outcome.made);
-  EXPECT_FALSE(finished->outcome.prefetched);  // rendered somewhere else
+  EXPECT_FALSE(finished->outcome.prefetched);  // rendered at another pose
   EXPECT_EQ(map.begun, 2);
   EXPECT_FALSE(thread.take().has_value());
-  // Nothing is begun before the last result is taken.
+  // No request is started before the last result is taken.
   EXPECT_TRUE(thread.request(request(3)));
   while (map.begun < 3) std::this_thread::yield();
   EXPECT_FALSE(thread.request(request(4)));
@@ -271,7 +271,7 @@ TEST(KeyframeBackend, AViewRenderedAheadIsUsedFromNearbyOnly) {
     ASSERT_TRUE(outcome.made);
     EXPECT_EQ(outcome.prefetched, near);
     EXPECT_EQ(map.renders, near ? 1 : 2);
-    // The view's own pose is what counts: the keyframe is where its image is, not where the view was rendered.
+    // The view is used with its own pose: the keyframe's pose is that of its image, not that of the view.
     const SE3 error = T_world_camera.inverse() * outcome.window.back().T_world_camera;
     EXPECT_LT(error.translation().norm(), 0.001) << near;
   }

@@ -27,7 +27,7 @@ class OdometryTest : public testing::Test {
  protected:
   using Path = std::function<SE3(int)>;
 
-  /// Plays the room's true images (change may spoil them) from a map that may be another.
+  /// Plays the room's images, modified by `change`, with a map that may differ from the room.
   Played play(test::BoxRoom& map, int frames, const OdometryOptions& options = {}, const SE3& start_error = {},
               const std::function<void(int, GrayImage&)>& change = {}, const Path& path = test::room_path) const {
     Played run;
@@ -71,7 +71,7 @@ TEST_F(OdometryTest, FollowsThePathToAMillimetre) {
   EXPECT_GE(run.statistics.keyframes, 4);
   EXPECT_EQ(run.statistics.anchored, run.statistics.keyframes);
   EXPECT_LT(ate(run), 0.001);
-  // One render a keyframe: nothing else looks at the map.
+  // One rendering for each keyframe, and no other.
   EXPECT_EQ(map.renders, run.statistics.keyframes);
   for (const TrackResult& result : run.live) {
     EXPECT_EQ(result.status, TrackStatus::ok);
@@ -103,7 +103,7 @@ TEST_F(OdometryTest, EveryUseOfTheMapsDepthFollowsThePath) {
 }
 
 TEST_F(OdometryTest, GoesOnBeyondTheMapAndComesBackIntoIt) {
-  // The map shows the room's right half; the camera turns to the left, away from it, and back.
+  // The map contains the room's right half; the camera turns left, away from it, and back.
   const auto path = [](int k) {
     const double t = 2.0 * 3.14159265 * k / 200.0;
     return SE3(so3_exp({0.05 * std::sin(2.0 * t), -0.5 * (1.0 - std::cos(t)), 0.0}),
@@ -126,7 +126,7 @@ TEST_F(OdometryTest, GoesOnBeyondTheMapAndComesBackIntoIt) {
     }
   }
   EXPECT_GT(outside, 30);
-  // What is known of the place fades outside, and is known again inside.
+  // The uncertainty of the pose grows outside the map and decreases when the map is seen again.
   const auto sigma = [&run](std::size_t k) {
     return std::sqrt(run.live[k].covariance.diagonal().head<3>().maxCoeff());
   };
@@ -136,8 +136,8 @@ TEST_F(OdometryTest, GoesOnBeyondTheMapAndComesBackIntoIt) {
 }
 
 TEST_F(OdometryTest, WhatWasSeenOnTheWayOutHoldsTheCameraOnItsWayBack) {
-  // The map shows all of the first view and nothing of the farthest. Where it shows a part, its colours are out of
-  // place.
+  // The map shows all of the first view and nothing of the farthest. Where it shows a part, its colours are shifted by
+  // one pixel.
   class Map : public test::BoxRoom {
     ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override {
       ViewImages view = test::BoxRoom::render(camera, T_world_camera, request);
@@ -152,7 +152,7 @@ TEST_F(OdometryTest, WhatWasSeenOnTheWayOutHoldsTheCameraOnItsWayBack) {
     return SE3(so3_exp({0.05 * std::sin(2.0 * t), -0.8 * (1.0 - std::cos(t)), 0.0}),
                {0.5 * std::sin(t), 0.15 * std::sin(2.0 * t), 0.3 * std::sin(t)});
   };
-  std::map<bool, double> error;  // [m] root mean square of the keyframes of which the map shows a part
+  std::map<bool, double> error;  // [m] root mean square over the keyframes of which the map shows a part
   for (const bool enabled : {true, false}) {
     Map map;
     map.mapped_from = -2.1;
@@ -212,14 +212,14 @@ TEST_F(OdometryTest, ARoughStartIsMendedAtOnce) {
 }
 
 TEST_F(OdometryTest, AMapInOtherColoursConfirmsNothing) {
-  test::BoxRoom inverted;  // not reachable by gain and offset alone
+  test::BoxRoom inverted;  // cannot be compensated by gain and offset
   inverted.gamma = -0.7;
   const Played refused = play(inverted, 20);
   EXPECT_EQ(refused.statistics.posed, 0);
   EXPECT_EQ(refused.statistics.refused, 20);
   EXPECT_TRUE(refused.trajectory.empty());
   for (const TrackResult& result : refused.live) EXPECT_EQ(result.evidence.verdict, Confirmation::contradicted);
-  // Who does not ask the map gets the geometry.
+  // Without confirmation the poses are accepted, and they are accurate because the map's depth is right.
   OdometryOptions unasked;
   unasked.confirmation.enabled = false;
   const Played run = play(inverted, 60, unasked);
@@ -274,7 +274,7 @@ TEST_F(OdometryTest, BlackFramesAreLostAndTheRunGoesOn) {
   EXPECT_LT(ate(run), 0.0015);
 }
 
-/// Every 30th pose of the path, for a relocaliser to look from.
+/// Every 30th pose of the path, as places for a relocaliser.
 std::vector<SE3> path_places() {
   std::vector<SE3> places;
   for (int k = 0; k < 240; k += 30) places.push_back(test::room_path(k));
@@ -313,7 +313,7 @@ TEST_F(OdometryTest, AWrongStartIsLookedUp) {
 TEST_F(OdometryTest, AKidnappedCameraIsFoundAtOnce) {
   for (const int jump : {45, 60, 105, 150, 180}) {
     SCOPED_TRACE(jump);
-    // Half way it is elsewhere, where the walls' waves fit so well that 8 in 10 points agree.
+    // At frame 15 the camera jumps to a place where the waves on the walls fit so well that 80 % of the points agree.
     const auto path = [jump](int k) { return test::room_path(k < 15 ? k : k + jump); };
     test::BoxRoom map;
     Relocalizer relocalizer(camera_, map, path_places());
@@ -365,7 +365,7 @@ TEST_F(OdometryTest, ImagesOfAnotherRoomAreRefusedFromAGivenStart) {
       const TrackResult result = odometry.track(other.gray(camera_, test::room_path(k)), k / 30.0);
       EXPECT_EQ(result.status, TrackStatus::lost) << k;
     }
-    // The right room is found again: by its keyframe at the start pose, or by a look-up.
+    // The right room is recognised again: by the keyframe at the start pose, or by a look-up.
     const TrackResult back = odometry.track(world_.gray(camera_, test::room_path(10)), 10 / 30.0);
     EXPECT_EQ(back.status == TrackStatus::relocalised, with_relocalizer);
     EXPECT_EQ(odometry.trajectory().size(), with_relocalizer ? 1U : 0U);
@@ -399,9 +399,10 @@ TEST_F(OdometryTest, AWrongCameraIsNoticed) {
     const TrackResult result = odometry.track(world_.gray(camera_, truth), k / 30.0);
     if (!odometry.statistics().likely_cause.empty()) ++named;
     if (result.status == TrackStatus::lost || named == 0) continue;
-    // Before a single wall focal length and distance are one. Once it is known, what remains lies in the covariance.
+    // In front of a single wall focal length and distance cannot be separated. Once the error is known, the remaining
+    // effect is contained in the covariance.
     const Vector6d error = (truth * result.T_world_camera.inverse()).log();
-    EXPECT_LT(error.dot(result.covariance.ldlt().solve(error)), 22.5) << k;  // one in a thousand is above
+    EXPECT_LT(error.dot(result.covariance.ldlt().solve(error)), 22.5) << k;  // exceeded with a probability of 0.1 %
   }
   EXPECT_GT(named, 30);
   EXPECT_THAT(odometry.statistics().likely_cause, testing::HasSubstr("focal length"));
@@ -416,7 +417,7 @@ TEST_F(OdometryTest, AnEmptyMapLosesEveryFrameQuietly) {
 }
 
 TEST_F(OdometryTest, TheFirstSeenMapStartsTheRun) {
-  // The first two images are black: the start pose waits for one that shows something.
+  // The first two images are black: the start pose is used for the first image with content.
   test::BoxRoom map;
   const Path standing = [](int k) { return test::room_path(std::max(0, k - 2)); };
   const Played run = play(

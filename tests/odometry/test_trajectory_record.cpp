@@ -24,7 +24,7 @@ TEST(TrajectoryRecord, ACorrectionIsSpreadOverTheFramesBetweenKeyframes) {
   TrajectoryRecord record;
   record.add_keyframe(0.0, at(0.0));
   for (int k = 1; k <= 4; ++k) record.add_frame(0.1 * k, 0, at(0.1 * k));
-  EXPECT_EQ(record.add_keyframe(0.4, at(0.6)), 1);  // tracking had put it at 0.4
+  EXPECT_EQ(record.add_keyframe(0.4, at(0.6)), 1);  // it was tracked at 0.4
   const Trajectory trajectory = record.compose();
   ASSERT_EQ(trajectory.size(), 5U);
   for (std::size_t k = 0; k < 5; ++k) {
@@ -42,11 +42,11 @@ TEST(TrajectoryRecord, AKeyframeMayComeAFewFramesLate) {
   for (std::size_t k = 1; k < 6; ++k) EXPECT_GT(trajectory[k].time, trajectory[k - 1].time);
   EXPECT_NEAR(trajectory[1].T_world_camera.translation().x(), 0.2, 1e-12);
   EXPECT_NEAR(trajectory[2].T_world_camera.translation().x(), 0.4, 1e-12);
-  // The late ones are where they stood relative to it: tracking had put it at 0.2.
+  // The later frames keep their poses relative to the keyframe's tracked position of 0.2.
   for (std::size_t k = 3; k < 6; ++k) {
     EXPECT_NEAR(trajectory[k].T_world_camera.translation().x(), 0.2 + 0.1 * static_cast<double>(k), 1e-12);
   }
-  // And they go on with it.
+  // They also follow its later corrections.
   record.move_keyframe(1, at(0.5));
   EXPECT_NEAR(record.compose()[5].T_world_camera.translation().x(), 0.8, 1e-12);
 }
@@ -56,7 +56,7 @@ TEST(TrajectoryRecord, ACorrectionIsNotSpreadOverALoss) {
   record.add_keyframe(0.0, at(0.0));
   record.add_frame(0.1, 0, at(0.1));
   record.add_frame(0.2, 0, at(0.2));
-  record.add_frame(0.5, 0, at(0.7), true);  // found again, in the wrong place
+  record.add_frame(0.5, 0, at(0.7), true);  // relocalised at a wrong place
   record.add_frame(0.6, 0, at(0.8));
   EXPECT_EQ(record.add_keyframe(0.6, at(0.6)), 1);
   const Trajectory trajectory = record.compose();

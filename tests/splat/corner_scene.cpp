@@ -17,7 +17,7 @@ Eigen::Vector3f pattern(const Eigen::Vector3d& p) {
   return Eigen::Vector3d(0.5 + 0.35 * a, 0.5 + 0.3 * b, 0.5 - 0.2 * a * b).cast<float>();
 }
 
-/// The first plane that a ray meets: distance in units of the ray.
+/// Distance to the first plane that a ray meets, in units of the ray.
 double meet(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray) {
   const double to_wall = (wall_z - origin.z()) / ray.z();
   const double to_floor = ray.y() > 0.0 ? (floor_y - origin.y()) / ray.y() : 1e9;

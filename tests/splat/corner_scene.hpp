@@ -12,8 +12,8 @@
 
 namespace odosplat::test {
 
-/// A scene with an exact answer: the wall z = 2 m above the floor y = 0.5 m (y is down), both with a smooth pattern,
-/// seen by cameras near the origin that look along z and a little down.
+/// A scene with exact depth and colour: the wall z = 2 m above the floor y = 0.5 m (y is down), both with a smooth
+/// pattern, seen by cameras near the origin that look along z and slightly down.
 struct CornerScene {
   Camera camera{64, 48, 60.0, 60.0, 31.5, 23.5};
 
@@ -26,7 +26,7 @@ struct CornerScene {
   PointCloud cloud(double spacing) const;
 };
 
-/// The even poses of the walk: 0, 2, ...; odd ones are for testing.
+/// Training views at the even poses of the walk (0, 2, ...); the odd ones are for testing.
 class CornerViews : public TrainingViews {
  public:
   explicit CornerViews(int count);
@@ -40,7 +40,7 @@ class CornerViews : public TrainingViews {
   std::vector<ColorImage> images_;
 };
 
-/// Root of the mean squared difference where both have depth [m]; the share of such pixels goes to `valid`.
+/// Root mean square depth difference [m] over pixels where both have depth; `valid`: the share of such pixels.
 double depth_rmse(const DepthImage& depth, const DepthImage& truth, double& valid);
 double psnr_db(const ColorImage& image, const ColorImage& truth);
 

@@ -38,7 +38,7 @@ def names_of(degree):
 
 
 def made_map(degree):
-    """Rows of values by name, as float32 holds them."""
+    """Rows of values by name, rounded to float32."""
     rng = random.Random(degree)
     rows = []
     for _ in range(COUNT):
@@ -96,7 +96,7 @@ def unit_rotation(row):
 
 
 def differences(found, wanted):
-    """Exact: names and values, normals apart."""
+    """Names and values must be equal exactly; normals are not compared."""
     if len(found) != len(wanted):
         return [f"{len(found)} Gaussians instead of {len(wanted)}"]
     return [f"Gaussian {i}: {name} is {f.get(name)}, must be {value}" for i, (f, w) in enumerate(zip(found, wanted))
@@ -104,7 +104,7 @@ def differences(found, wanted):
 
 
 def differences_of_splat(found, wanted):
-    """As far as .splat keeps values: half a step of a byte, a whole one for rotations near +1 (127 of 128 fit)."""
+    """Within the resolution of .splat: half a step of a byte, a whole one for rotations near +1 (127 of 128 fit)."""
     wanted = sorted(wanted, key=lambda row: row["x"])
     found = sorted(found, key=lambda row: row["x"])
     faults = []
@@ -153,7 +153,7 @@ def main():
                                    (f"m{degree}.splat", f"splat{degree}.ply")):
                 subprocess.run([options.odosplat, "convert", path(source), path(target), "--log", "off"], check=True,
                                stdout=subprocess.DEVNULL)
-        # gsply compiles with numba, which caches where it is told.
+        # gsply compiles with numba, whose cache folder is set here.
         environment = dict(os.environ, NUMBA_CACHE_DIR=os.path.join(options.venv, "numba"))
         return subprocess.run([python, os.path.abspath(__file__), "--worker", scratch], check=False,
                               env=environment).returncode

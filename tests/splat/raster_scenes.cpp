@@ -25,7 +25,7 @@ Eigen::Vector4d random_quaternion(Random& random) {
   return 0.7 * Eigen::Vector4d(random.normal(), random.normal(), random.normal(), random.normal());
 }
 
-// A point of the camera's ray through (u, v) at depth z, in the world.
+// Point at depth z on the camera's ray through (u, v), in the world.
 Eigen::Vector3d at_pixel(const RasterScene& scene, double u, double v, double z) {
   return scene.T_world_camera * (z * scene.camera.ray(u, v));
 }
@@ -67,7 +67,7 @@ RasterScene surrounding_scene() {
   scene.gaussians.sh_degree = 1;
   Random random(5);
   for (int i = 0; i < 120; ++i) {
-    // Depths from behind to far, half of them within 0.3 m of the camera's plane; far to the sides.
+    // Depths on both sides of the camera's plane, half of them within 0.3 m of it, and positions far to the sides.
     const double z = i % 2 == 0 ? random.uniform(-0.3, 0.3) : random.uniform(-3.0, 3.0);
     const Eigen::Vector3d p(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), z);
     const Eigen::Vector3d s(random.uniform(-4.0, -0.5), random.uniform(-4.0, -0.5), random.uniform(-4.0, -0.5));

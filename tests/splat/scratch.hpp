@@ -10,7 +10,7 @@
 
 namespace odosplat::test {
 
-/// A folder of its own that goes when the test ends.
+/// A temporary folder, removed when the test ends.
 class Scratch {
  public:
   Scratch() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Replays the seeds and kept findings of the fuzzer of Gaussian files: who breaks a contract aborts this program.
+// Replays the seeds and kept findings of the fuzzer of Gaussian files: a violated contract aborts this program.
 #include <gtest/gtest.h>
 
 #include <filesystem>

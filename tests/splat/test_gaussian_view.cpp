@@ -76,10 +76,10 @@ TEST(GaussianView, SigmaCoversTheSlopeAndHasAFloor) {
       else
         EXPECT_EQ(images.sigma(y, x), 0.0F);
     }
-  // Low in the image is floor, seen at a slant: half a pixel there is this much depth
+  // The lower part of the image shows the floor at a slant: sigma must cover the change of depth over half a pixel.
   const int y = scene.camera.height - 4;
   const int x = scene.camera.width / 2;
-  // (a little less: the slopes of discs seen at a slant are bounded, PLANE_DILATION).
+  // Slightly less, because the slopes of discs seen at a slant are limited (PLANE_DILATION).
   EXPECT_GT(images.sigma(y, x), 0.8F * 0.25F * std::abs(truth(y - 1, x) - truth(y + 1, x)));
   EXPECT_LT(images.sigma(y, x), 0.1F * truth(y, x));
 }

@@ -34,7 +34,7 @@ class MapFile : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
 
-  /// what() of the InputError that reading `name` ends with; empty if it does not.
+  /// Message of the InputError from reading `name`; empty if there is none.
   std::string fault(const std::string& name) const {
     try {
       read_map(path(name));
@@ -130,7 +130,7 @@ TEST_F(MapFile, PlacesAreThinned) {
   for (int k = 0; k < 100; ++k) views.emplace_back(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.01 * k, 0.0, 0.0));
   EXPECT_EQ(thinned_places(views, {0.095, 0.2, 1000}).size(), 10U);
   EXPECT_LE(thinned_places(views, {0.005, 0.2, 7}).size(), 7U);
-  // As many directions from one spot are as many places.
+  // Different directions from one position also count as different places.
   for (int k = 0; k < 100; ++k)
     views[static_cast<std::size_t>(k)] = SE3(so3_exp({0.0, 0.01 * k, 0.0}), Eigen::Vector3d::Zero());
   EXPECT_EQ(thinned_places(views, {0.1, 0.095, 1000}).size(), 10U);
@@ -153,7 +153,7 @@ TEST_F(MapFile, HeaderIsThatOfPublicPrograms) {
   for (const std::string name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
     expected += "property float " + name + "\n";
   EXPECT_THAT(header, HasSubstr(expected));
-  // 2 rows of 26 floats behind the header.
+  // 2 rows of 26 floats after the header.
   EXPECT_EQ(text.size(), text.find("end_header\n") + 11 + std::size_t{2} * 26 * 4);
 }
 
@@ -170,7 +170,7 @@ TEST_F(MapFile, RestOfHarmonicsIsChannelAfterChannel) {
 TEST_F(MapFile, NormalIsTheShortestAxis) {
   Gaussians g = random_gaussians(1, 0);
   g.log_scales = {-1.0F, -4.0F, -2.0F};
-  g.rotations = {2.0F, 0.0F, 0.0F, 2.0F};  // a quarter turn about z, not of unit length: y becomes -x
+  g.rotations = {2.0F, 0.0F, 0.0F, 2.0F};  // 90 degrees about z, not normalised: y becomes -x
   write_map(path("map.ply"), g);
   const std::string text = read_text("map.ply");
   float row[17];
@@ -209,7 +209,7 @@ std::string ascii_map(const std::vector<std::string>& rows, const std::string& t
   for (const std::string& row : rows) text += row + "\n";
   return text;
 }
-/// what() of the InputError that parsing ends with; empty if it does not.
+/// Message of the InputError from parsing; empty if there is none.
 std::string parse_fault(const std::string& text) {
   try {
     parse_map("m.ply", text);
@@ -268,14 +268,14 @@ TEST_F(MapFile, WhatNoDeviceCanDrawIsLeftOutAndNamed) {
     EXPECT_EQ(g.size(), 19U);
     EXPECT_EQ(parse_fault(ascii_map({row})), "m.ply: Gaussian 0: " + wrong);
   }
-  // Opacities and sizes have no such limits.
+  // Opacities and sizes are not limited.
   for (const char* row : {"1 2 3 0.1 0.2 0.3 1e30 -4 -5 -6 1 0 0 0", "1 2 3 0.1 0.2 0.3 -1e30 -4 -5 -6 1 0 0 0",
                           "1 2 3 0.1 0.2 0.3 2 -1e30 -1e30 -1e30 0 0 -9 0"}) {
     EXPECT_EQ(parse_fault(ascii_map({row})), "") << row;
   }
 }
 
-// The limits are those of the kernels: what they pass is drawn with finite numbers, next to what is beyond.
+// The limits are those of the kernels: Gaussians just within them are drawn with finite values.
 TEST_F(MapFile, WhatIsWithinTheLimitsIsDrawn) {
   const auto context = compute::Context::open();
   const Camera camera{33, 33, 40.0, 40.0, 16.0, 16.0};
@@ -305,7 +305,7 @@ TEST_F(MapFile, FieldsOfTheHeaderAreChecked) {
     text.insert(text.find("element"), lines);
     write_text("m.ply", text);
     const std::string said = fault("m.ply");
-    // Whoever reads the header alone is told the same.
+    // Reading only the header gives the same error.
     try {
       read_map_header(path("m.ply"));
       EXPECT_EQ(said, "");
@@ -328,7 +328,7 @@ TEST_F(MapFile, FieldsOfTheHeaderAreChecked) {
   EXPECT_EQ(header_fault({"iterations_done -1"}),
             ": header: iterations_done: must be a whole number of at least 0, is `-1`");
   EXPECT_EQ(header_fault({"seed 0.5"}), ": header: seed: must be a whole number of at least 0, is `0.5`");
-  // Other programs' comments may begin with the same words, and say what they like.
+  // Comments of other programs may begin with the same words and have any content.
   EXPECT_EQ(header_fault({"iterations were many", "iterations 3"}, false), "");
   EXPECT_EQ(header_fault({"iterations were many", "made by hand"}, false), "");
   EXPECT_EQ(read_map_header(path("m.ply")).notes, (std::vector<std::string>{"made by hand"}));
@@ -353,7 +353,7 @@ TEST_F(MapFile, TwoScalesAreFlatDiscs) {
   const Gaussians g =
       parse_map("m.ply", ascii_map({"1 2 3 0.1 0.2 0.3 2 -4 -5 1 0 0 0"}, "float", "scale_2")).gaussians;
   EXPECT_THAT(g.log_scales, testing::ElementsAre(-4, -5, -13.8155F));
-  // Another scale that is missing stays a fault.
+  // A missing scale other than the third is still an error.
   EXPECT_EQ(parse_fault(ascii_map({"1 2 3 0.1 0.2 0.3 2 -4 -5 1 0 0 0"}, "float", "scale_1")),
             "m.ply: vertex: has no property scale_1");
 }

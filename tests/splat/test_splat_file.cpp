@@ -73,8 +73,7 @@ TEST(SplatFile, WritesLargestFirstAndEqualsInOrder) {
 }
 
 TEST(SplatFile, BytesComeBackTheSame) {
-  // Whatever a viewer's file holds: every byte value of colour and opacity. Quaternions of unit length are kept to the
-  // bytes' own resolution.
+  // All byte values of colour and opacity. Unit quaternions keep the resolution of the bytes.
   Random random(4);
   Gaussians g;
   g.resize(256);
@@ -93,7 +92,7 @@ TEST(SplatFile, BytesComeBackTheSame) {
   ASSERT_EQ(again.size(), bytes.size());
   for (std::size_t i = 0; i < 256; ++i) {
     const std::string a = bytes.substr(32 * i, 32);
-    // The order may change where opacities fall on one byte: look the Gaussian up by its position.
+    // The order may change if two opacities round to the same byte: the Gaussian is looked up by its position.
     const std::size_t at = again.find(a.substr(0, 12));
     ASSERT_NE(at, std::string::npos);
     EXPECT_EQ(again.substr(at + 24, 4), a.substr(24, 4));
@@ -173,11 +172,11 @@ TEST(SplatFile, MapsAreReadAndWrittenByExtension) {
   EXPECT_FALSE(is_map_file("/"));
 }
 
-// Maps trained elsewhere: what programs differ in.
+// Maps trained by other programs, with variations of the format.
 TEST(SplatFile, MapsOfOtherProgramsAreRead) {
   const test::Scratch scratch;
   for (int degree = 0; degree <= 3; ++degree) {
-    // Doubles, no normals, properties of their own, another element behind.
+    // Doubles, no normals, additional properties, another element after the vertices.
     PlyElement vertex;
     vertex.name = "vertex";
     vertex.add("label", std::vector<std::int32_t>{7, 8});

@@ -12,7 +12,8 @@
 namespace odosplat {
 namespace {
 
-/// Nearest hit by solving each triangle's 3x3 system in double; `margin` tells how far the ray passes from any border.
+/// Nearest hit by solving each triangle's 3x3 system in double. sure: false if the ray passes close to a triangle's
+/// border.
 struct Answer {
   int triangle = -1;
   double t = 1e30;
@@ -66,7 +67,7 @@ TEST_P(BvhSizes, ClosestEqualsBruteForce) {
   int judged = 0;
   for (int k = 0; k < 3000; ++k) {
     Ray ray{random_point(random, 3.0), random_point(random, 1.0)};
-    if (k % 5 == 0) ray.direction[k % 3] = 0.0F;  // along a plane of axes
+    if (k % 5 == 0) ray.direction[k % 3] = 0.0F;  // parallel to a plane of two axes
     if (k % 7 == 0) ray.t_max = 2.0F;
     const Answer expected = by_force(triangles, ray);
     if (!expected.sure) continue;

@@ -30,7 +30,7 @@ int missing(const DepthImage& depth, const cv::Rect& region) { return region.are
 
 TEST(Kinect, DeviationOfDepthFollowsTheFormula) {
   for (const double z : {1.0, 2.0, 3.0, 4.0}) {
-    // Depths around z: one alone could lie on a step of the disparity.
+    // Depths around z, since a single depth could coincide with a step of the disparity.
     DepthImage ideal(480, 640);
     for (int x = 0; x < 640; ++x) ideal.col(x) = static_cast<float>(z * (0.99 + 0.02 * x / 640));
     KinectOptions options;
@@ -66,7 +66,7 @@ TEST(Kinect, DisparityIsInEighthsOfAPixel) {
 }
 
 TEST(Kinect, PlacesAreShiftedByTheLateralDeviation) {
-  // On a plane, depth tells the column it was measured at.
+  // On a slanted plane the depth determines the column at which it was measured.
   KinectOptions options;
   options.axial.sigma_constant = 1e-9;
   options.axial.sigma_square = 0.0;
@@ -84,7 +84,7 @@ TEST(Kinect, PlacesAreShiftedByTheLateralDeviation) {
         ++n;
       }
     }
-    // Rounding to whole pixels adds a twelfth.
+    // Rounding to whole pixels adds a variance of 1/12.
     EXPECT_NEAR(squares / n, 0.64 * scale * scale + 1.0 / 12.0, 0.02 * scale * scale) << scale;
   }
 }
@@ -105,7 +105,7 @@ TEST(Kinect, DepthIsMissingOutOfRangeAtGrazingAnglesAndAtEdges) {
   step.colRange(0, 320) = 1.5F;
   step(100, 100) = 0.0F;
   const DepthImage sensed = sense_kinect_depth(step, camera_640, options, 0);
-  EXPECT_EQ(missing(sensed, cv::Rect(319, 0, 2, 480)), 2 * 480);  // both sides
+  EXPECT_EQ(missing(sensed, cv::Rect(319, 0, 2, 480)), 2 * 480);  // both sides of the edge
   EXPECT_EQ(missing(sensed, cv::Rect(0, 0, 640, 480)), 2 * 480 + 1);
 }
 

@@ -85,7 +85,7 @@ TEST(Lidar, KeepsItsRangesAndAngles) {
 }
 
 TEST(Lidar, GivesPointsInTheWorldFrame) {
-  // The same scanner, moved and turned: points still lie on the world's walls, as seen from the new place.
+  // The scanner moved and rotated: the points still lie on the world's walls.
   LidarOptions options;
   options.range_noise = 0.0;
   const SE3 T_world_scanner(so3_exp({0.1, -0.2, 0.7}), {0.5, -0.8, 0.2});
@@ -111,7 +111,7 @@ TEST(Lidar, LeavesVoidsBehindThings) {
   for (const Eigen::Vector3f& p : cloud.points) {
     if (p.x() < 1.999F) continue;
     ++on_wall;
-    // The box's front, at x = 0.9, throws a shadow on the wall at x = 2 that is 2 / 0.9 as large.
+    // The box's front at x = 0.9 occludes an area of the wall at x = 2 that is 2 / 0.9 as large.
     if (std::abs(p.y()) < 0.66F && std::abs(p.z()) < 0.66F) ++in_shadow;
   }
   EXPECT_GT(on_wall, 5000);

@@ -33,7 +33,7 @@ TEST(Lighting, RectangleAboveAFloorFollowsTheFormFactor) {
   // 1.2 x 0.8 m at a height of 1.5 m, shining down.
   builder.add_window_light({-0.6F, -0.4F, 1.5F}, {1.2F, 0.0F, 0.0F}, {0.0F, 0.8F, 0.0F}, {5.0F, 4.0F, 3.0F});
   const Scene scene = builder.build(direct_only());
-  // Factor from a point to a parallel rectangle whose corner is above it, four times (textbook formula).
+  // Form factor from a point to a parallel rectangle with a corner above it, four times (textbook formula).
   const double x = 0.6 / 1.5;
   const double y = 0.4 / 1.5;
   const double a = x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x));
@@ -77,14 +77,14 @@ TEST(Lighting, ThingsThrowShadowsUnlessToldNotTo) {
 }
 
 TEST(Lighting, ReflectedLightOfAClosedRoomApproachesTheGeometricSeries) {
-  // In a sphere of albedo a, light that comes back after n bounces is everywhere direct light's mean times a + ... +
+  // In a sphere of albedo a, the light after n reflections is everywhere the mean of the direct light times a + ... +
   // a^n.
   auto mean_light = [](int bounces) {
     SceneBuilder builder;
     Material material;
     material.tint = Eigen::Vector3f::Constant(from_linear(0.5F));
     const int m = builder.add_material(material);
-    // A sphere seen from inside: u runs the other way.
+    // For a sphere seen from inside, u runs in the other direction.
     SceneBuilder::Surface inside;
     inside.position = [](float u, float v) -> Eigen::Vector3f {
       const float a = -6.2831853F * u;
@@ -92,7 +92,7 @@ TEST(Lighting, ReflectedLightOfAClosedRoomApproachesTheGeometricSeries) {
       return {std::sin(b) * std::cos(a), std::sin(b) * std::sin(a), std::cos(b)};
     };
     inside.normal = [=](float u, float v) -> Eigen::Vector3f { return -inside.position(u, v); };
-    inside.segments_u = 256;  // facets must lie closer to the sphere than light is gathered above it
+    inside.segments_u = 256;  // facets must be closer to the sphere than the height at which light is sampled above it
     inside.segments_v = 128;
     inside.size_m = {3.0F, 3.0F};
     inside.material = m;

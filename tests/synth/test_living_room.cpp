@@ -29,7 +29,7 @@ TEST(LivingRoom, IsClosedButForItsWindows) {
     Eigen::Vector3d d(random.normal(), random.normal(), random.normal());
     RayHit hit;
     if (living_room().closest({origin, d.cast<float>()}, hit)) continue;
-    // Through the wall y = 4.6, within one of the two windows.
+    // Rays without a hit must leave through the wall y = 4.6 within one of the two windows.
     ASSERT_GT(d.y(), 0.0);
     const Eigen::Vector3d p = origin.cast<double>() + d * (4.6 - 1.3) / d.y();
     EXPECT_GT(p.z(), 0.85);
@@ -73,7 +73,7 @@ TEST(LivingRoom, ImagesOfTheWalkAreWellExposedAndNeitherBareNorRich) {
     const Rendering r = render(living_room(), camera, path[k].T_world_camera);
     const GrayImage gray = to_gray(r.color);
     const double mean = cv::mean(gray)[0];
-    EXPECT_GT(mean, 0.15) << "frame " << k;  // dim: bright, it has more texture than rooms of recorded data
+    EXPECT_GT(mean, 0.15) << "frame " << k;  // dim: brighter images would have more texture than recorded rooms
     EXPECT_LT(mean, 0.75) << "frame " << k;
     const double depth_share = static_cast<double>(cv::countNonZero(r.depth)) / static_cast<double>(r.depth.total());
     EXPECT_GT(depth_share, 0.75) << "frame " << k;

@@ -19,7 +19,7 @@ const Scene& room() {
   return scene;
 }
 
-/// Half a metre a second to the right, past a wall.
+/// Motion of half a metre per second to the right, parallel to a wall.
 SE3 moving(double time) {
   return look_at(Eigen::Vector3d(1.0 + 0.5 * time, 1.0, 1.3), Eigen::Vector3d(1.0 + 0.5 * time, 3.0, 1.3));
 }

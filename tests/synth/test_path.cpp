@@ -44,7 +44,7 @@ TEST(HandHeldPath, GoesThroughItsWaypointsWithoutTremor) {
           nearest, (p.T_world_camera.translation() - w.eye).norm() +
                        so3_log(look_at(w.eye, w.target).rotation().conjugate() * p.T_world_camera.rotation()).norm());
     }
-    EXPECT_LT(nearest, 0.015);  // frames lie up to 1 cm apart
+    EXPECT_LT(nearest, 0.015);  // frames are up to 1 cm apart
   }
   EXPECT_LT((path.front().T_world_camera.translation() - square.front().eye).norm(), 1e-9);
   EXPECT_LT((path.back().T_world_camera.translation() - square.back().eye).norm(), 1e-9);
@@ -73,7 +73,7 @@ TEST(HandHeldPath, IsSmoothAndKeepsItsBounds) {
   EXPECT_LE(speed, 0.8);
   EXPECT_LE(turn, 1.2);
   EXPECT_GT(speed, 0.2);
-  EXPECT_LT(jerk, 0.01);  // [m a frame squared]: no jumps
+  EXPECT_LT(jerk, 0.01);  // [m per frame squared]: no jumps
 }
 
 TEST(HandHeldPath, TremorHasTheAskedSize) {
@@ -96,7 +96,7 @@ TEST(HandHeldPath, TremorHasTheAskedSize) {
     rotation += so3_log(T_world_steady.rotation().conjugate() * T_world_shaken.rotation()).squaredNorm() / 3.0;
   }
   EXPECT_NEAR(std::sqrt(position / 2000.0), 0.01, 0.002);
-  // The eye's tremor turns the view to the target too, by about 0.01 m / 3 m.
+  // The tremor of the position also rotates the view of the target, by about 0.01 m / 3 m.
   EXPECT_NEAR(std::sqrt(rotation / 2000.0), 0.02, 0.004);
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 const Camera camera{160, 120, 131.0, 129.0, 80.3, 58.7};
 
-/// z of the ray of a pixel on the plane normal . p = offset.
+/// Depth of the plane normal . p = offset along a pixel's ray.
 double plane_depth(const SE3& T_world_camera, double u, double v, const Eigen::Vector3d& normal, double offset) {
   const Eigen::Vector3d direction = T_world_camera.rotation_matrix() * camera.ray(u, v);
   return (offset - normal.dot(T_world_camera.translation())) / normal.dot(direction);
@@ -29,7 +29,7 @@ Scene single_wall(float x) {
   Material material;
   material.texture = builder.add_texture(checker_pattern(64, 2, {0.2F, 0.2F, 0.2F}, {0.8F, 0.8F, 0.8F}), {1.0F, 1.0F});
   const int m = builder.add_material(material);
-  // Seen from smaller x: y runs to the left, so the right edge of the image is towards -y.
+  // The wall is seen from smaller x: y runs to the left, so the right edge of the image is towards -y.
   builder.add_quad({x, 50.0F, 50.0F}, {0.0F, -100.0F, 0.0F}, {0.0F, 0.0F, -100.0F}, m);
   return builder.build_unlit();
 }
@@ -91,7 +91,7 @@ TEST(RayCaster, TextureLandsWhereItIsPut) {
       const Eigen::Vector3d p = T_world_camera * (camera.ray(u, v) * 2.0);
       const double cell_u = (50.0 - p.y()) / 0.5;
       const double cell_v = (50.0 - p.z()) / 0.5;
-      const double margin = 0.08;  // of a cell: 5 pixels of filter
+      const double margin = 0.08;  // of a cell: 5 pixels, for the filter
       if (std::abs(cell_u - std::round(cell_u)) < margin || std::abs(cell_v - std::round(cell_v)) < margin) continue;
       const bool dark = (static_cast<int>(std::floor(cell_u)) + static_cast<int>(std::floor(cell_v))) % 2 == 0;
       ++judged;
@@ -130,7 +130,8 @@ TEST(RayCaster, SameBitsForAnyNumberOfThreads) {
 }
 
 TEST(RayCaster, EdgesAreAveraged) {
-  // A dark half plane before a bright wall: along the edge the mean over many places must be that of the covered area.
+  // A dark half plane in front of a bright wall: along the edge the mean of many pixels must correspond to the covered
+  // area.
   SceneBuilder builder;
   const int dark = builder.add_plain(0.0F, 0.0F, 0.0F);
   const int bright = builder.add_plain(1.0F, 1.0F, 1.0F);

@@ -37,7 +37,7 @@ LightingOptions coarse_light() {
   return lighting;
 }
 
-/// The small room with one piece of its text put in place of another.
+/// The text of the small room with one part replaced.
 std::string changed(const std::string& from, const std::string& to) {
   std::string text = small_room;
   const std::size_t place = text.find(from);

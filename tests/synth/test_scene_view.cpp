@@ -12,7 +12,7 @@
 namespace odosplat {
 namespace {
 
-const Camera camera{97, 71, 80.0, 81.0, 47.5, 35.2};  // sizes that are no multiple of anything
+const Camera camera{97, 71, 80.0, 81.0, 47.5, 35.2};  // unusual sizes
 const SE3 T_world_camera = look_at({0.6, 0.5, 1.5}, {2.9, 2.3, 0.7});
 
 std::shared_ptr<const Scene> box_room() {
@@ -82,7 +82,7 @@ TEST(SceneView, LookingAwayGivesZeros) {
 }
 
 TEST(SceneView, DepthAndColorOfTwoViewsAgree) {
-  // What tracking rests on: a pixel lifted with its depth has the same colour and depth in a view from elsewhere.
+  // The assumption of tracking: a pixel's point has the same colour and depth in a view from another pose.
   const SE3 T_world_other = look_at({0.75, 0.42, 1.45}, {2.9, 2.2, 0.75});
   SceneView view(box_room(), {.samples = 16});
   const Camera large{320, 240, 250.0, 250.0, 159.5, 119.5};
@@ -100,7 +100,7 @@ TEST(SceneView, DepthAndColorOfTwoViewsAgree) {
       const Eigen::Vector2d q = large.project(p);
       if (q.x() < 1.0 || q.y() < 1.0 || q.x() > large.width - 2.0 || q.y() > large.height - 2.0) continue;
       const float seen = there.depth(static_cast<int>(std::lround(q.y())), static_cast<int>(std::lround(q.x())));
-      if (std::abs(seen - p.z()) > 0.02) continue;  // hidden, or at an edge
+      if (std::abs(seen - p.z()) > 0.02) continue;  // occluded, or at an edge
       ++n;
       const float value = bilinear(gray_there, static_cast<float>(q.x()), static_cast<float>(q.y()));
       difference += std::abs(value - gray_here(v, u));

@@ -45,7 +45,7 @@ TEST(ColorSensor, BrightnessChangeIsAffineAndStartsAtNone) {
   EXPECT_EQ(brightness_at(options, 0.0).gain, 1.0);
   EXPECT_EQ(brightness_at(options, 0.0).offset, 0.0);
   const AffineBrightness b = brightness_at(options, 1.0);
-  EXPECT_NEAR(b.gain, 1.3, 1e-12);  // a quarter of the period
+  EXPECT_NEAR(b.gain, 1.3, 1e-12);  // at a quarter of the period
   for (const float level : {0.1F, 0.4F, 0.6F}) {
     const ColorImage sensed = sense_color(ColorImage(2, 2, cv::Vec3f(level, level, level)), options, 0, 1.0);
     EXPECT_NEAR(sensed(1, 1)[1], b.gain * level + b.offset, 1e-6);
@@ -100,7 +100,7 @@ TEST(DepthSensor, NoiseIsUnbiasedInDisparity) {
   }
   const double n = 200.0 * 300.0;
   EXPECT_NEAR(sum / n, 0.0, 0.05);
-  EXPECT_NEAR(square / n, 4.0 + 1.0 / 12.0, 0.15);  // noise, and rounding's variance
+  EXPECT_NEAR(square / n, 4.0 + 1.0 / 12.0, 0.15);  // variances of the noise and of rounding
 }
 
 TEST(DepthSensor, GivesNothingOutsideItsRange) {

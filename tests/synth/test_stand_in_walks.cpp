@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// The eight walks that stand in for the sequences of the paper's Table 1.
+// The eight walks that replace the sequences of the paper's Table 1.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -53,7 +53,7 @@ TEST(Walk, IsKnownBetweenFrames) {
 }
 
 TEST(Walk, QuickTurnsSlowTheFeet) {
-  // Looks the other way within 10 cm of the way.
+  // The view turns to the opposite direction within 10 cm of the path.
   const std::vector<Waypoint> line{{{1.0, 1.0, 1.2}, {1.0, 4.0, 1.2}},
                                    {{2.0, 1.0, 1.2}, {2.0, 4.0, 1.2}},
                                    {{2.1, 1.0, 1.2}, {4.0, -1.5, 1.2}},
@@ -74,8 +74,8 @@ TEST(Walk, QuickTurnsSlowTheFeet) {
 }
 
 TEST(Walk, RefusesWhatCannotBe) {
-  EXPECT_THROW(Walk(square, options_of(900, 50.0, false)), InputError);  // waypoints end before
-  EXPECT_THROW(Walk(square, options_of(900, 0.01, true)), InputError);   // tremor alone is longer
+  EXPECT_THROW(Walk(square, options_of(900, 50.0, false)), InputError);  // the waypoints' path is too short
+  EXPECT_THROW(Walk(square, options_of(900, 0.01, true)), InputError);   // the tremor alone is longer
   EXPECT_THROW(Walk(square, options_of(60, 20.0, true)), InputError);    // too fast
   EXPECT_THROW(Walk({square[0]}, options_of(900, 1.0, false)), InputError);
 }

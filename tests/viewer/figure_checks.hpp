@@ -18,7 +18,7 @@ inline bool near_color(const cv::Vec3b& a, const cv::Vec3b& b, int tolerance) {
   return std::abs(a[0] - b[0]) <= tolerance && std::abs(a[1] - b[1]) <= tolerance && std::abs(a[2] - b[2]) <= tolerance;
 }
 
-/// Box of everything that is not white.
+/// Bounding box of all pixels that are not white.
 inline cv::Rect ink_box(const cv::Mat3b& image) {
   cv::Rect box;
   for (int y = 0; y < image.rows; ++y) {
@@ -34,7 +34,7 @@ inline int count_near(const cv::Mat3b& image, const cv::Vec3b& color, int tolera
       std::count_if(image.begin(), image.end(), [&](const auto& p) { return near_color(p, color, tolerance); }));
 }
 
-/// Middle of the pixels near a colour; NaN if there are none.
+/// Mean position of the pixels near a colour; NaN if there are none.
 inline cv::Point2d center_of(const cv::Mat3b& image, const cv::Vec3b& color, int tolerance) {
   cv::Point2d sum(0.0, 0.0);
   for (int y = 0; y < image.rows; ++y) {
@@ -45,7 +45,7 @@ inline cv::Point2d center_of(const cv::Mat3b& image, const cv::Vec3b& color, int
   return sum / static_cast<double>(count_near(image, color, tolerance));
 }
 
-/// Are the outermost `margin` pixels on all sides white?
+/// Whether the outermost `margin` pixels on all sides are white.
 inline bool margins_are_white(const cv::Mat3b& image, int margin) {
   const cv::Rect box = ink_box(image);
   return box.empty() ||

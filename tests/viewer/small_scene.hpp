@@ -10,7 +10,7 @@
 
 namespace odosplat {
 
-/// A room of 4 x 3 x 2.5 m around the origin in a y-down world (up = -y), its inside grey, with normals.
+/// A room of 4 x 3 x 2.5 m around the origin in a world with y down (up = -y); grey inside, with normals.
 inline MapPoints grey_room(double spacing = 0.1) {
   MapPoints map;
   const Eigen::Vector3d half(2.0, 1.25, 1.5);
@@ -35,7 +35,7 @@ inline MapPoints grey_room(double spacing = 0.1) {
   return map;
 }
 
-/// `count` level cameras of that world on a circle of 0.8 m, 30 a second, looking outward.
+/// `count` level cameras in that world on a circle of radius 0.8 m, 30 per second, looking outward.
 inline Trajectory circle(int count) {
   Trajectory cameras;
   for (int k = 0; k < count; ++k) {

@@ -14,14 +14,14 @@ namespace {
 
 const Camera camera{80, 60, 70.0, 70.0, 39.5, 29.5};
 
-/// A wall of points at `depth` [m] before a camera at the origin.
+/// A wall of points at `depth` [m] in front of a camera at the origin.
 void add_wall(PointCloud& cloud, float depth) {
   for (int y = 2; y < 60; y += 4) {
     for (int x = 2; x < 80; x += 4) cloud.points.push_back((depth * camera.ray(x, y)).cast<float>());
   }
 }
 
-/// Interpolated 2 m with a hole, rendered 3 m; points at 3 m.
+/// Interpolated depth 2 m with a hole, rendered depth 3 m, points at 3 m.
 AssociationFigure wall_figure(cv::Size size) {
   AssociationFigure figure;
   figure.size = size;
@@ -45,7 +45,7 @@ TEST(AssociationFigure, OneScaleForPointsAndImages) {
   EXPECT_GT(count_near(image(top_left), color_at(2.0), 2), 30000);
   EXPECT_GT(count_near(image(top_left), hatch_light, 0), 3000);
   EXPECT_GT(count_near(image(top_right), color_at(3.0), 2), 30000);
-  const cv::Rect bottom_left(0, 345, 400, 290);  // the panel of the points, clear of the colour bar
+  const cv::Rect bottom_left(0, 345, 400, 290);  // the panel of the points, without the colour bar
   EXPECT_GT(count_near(image(bottom_left), color_at(3.0), 2), 1000);
   EXPECT_GT(count_near(image(bottom_left), {255, 255, 255}, 0), 30000);
   EXPECT_GT(count_near(image, {51, 102, 153}, 1), 30000);
@@ -57,7 +57,7 @@ TEST(AssociationFigure, PointsLieWhereTheyProject) {
   const cv::Mat3b image = draw_association(figure);
   const cv::Rect bottom_left(0, 345, 400, 290);
   const cv::Point2d at = center_of(image(bottom_left), color_at(3.0), 2);
-  // The middle of the panel, which is all of its row's frame but for the gaps around it.
+  // The point must be in the middle of the panel, whose frame is the bounding box of this part except for the gaps.
   const cv::Rect frame = ink_box(image(bottom_left));
   EXPECT_NEAR(at.x, 0.5 * (frame.x + frame.br().x), 12.0);
   figure.T_world_camera = SE3(Eigen::Quaterniond::Identity(), {0.6, 0.0, 0.0});  // 14 px of 80 to the left
@@ -72,9 +72,9 @@ TEST(AssociationFigure, HidesPointsBehindTheRenderedSurface) {
   add_wall(figure.cloud, 3.8F);
   const cv::Rect bottom_left(0, 345, 400, 290);
   EXPECT_EQ(count_near(draw_association(figure)(bottom_left), color_at(3.8), 2), 0);
-  figure.rendered.setTo(0.0F);  // nothing known there: nothing hidden
+  figure.rendered.setTo(0.0F);  // without rendered depth no point is hidden
   EXPECT_GT(count_near(draw_association(figure)(bottom_left), color_at(3.8), 2), 1000);
-  figure.cloud.points = {{0.0F, 0.0F, -2.0F}, {0.0F, 0.0F, 0.0F}};  // behind the camera, and in it
+  figure.cloud.points = {{0.0F, 0.0F, -2.0F}, {0.0F, 0.0F, 0.0F}};  // behind the camera, and at its centre
   EXPECT_NO_THROW(draw_association(figure));
 }
 

@@ -12,7 +12,7 @@ namespace odosplat {
 namespace {
 
 TEST(ColorScale, LightnessIsLinear) {
-  // 8-bit colours round L* by up to half a unit or so.
+  // Rounding to 8 bits changes L* by up to about half a unit.
   for (int i = 0; i <= 100; ++i) {
     const double t = i / 100.0;
     EXPECT_NEAR(lightness(scale_color(ColorScale::depth, t)), 12.0 + 80.0 * t, 0.7) << t;

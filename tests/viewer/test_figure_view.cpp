@@ -24,7 +24,7 @@ std::vector<Eigen::Vector3d> corners() {
 
 TEST(EstimateUp, IsMinusTheMeanOfTheCamerasDown) {
   EXPECT_TRUE(estimate_up(circle(12)).isApprox(Eigen::Vector3d(0.0, -1.0, 0.0)));
-  Trajectory tilted = circle(12);  // all pitched down by 20 degrees about their own x: the mean stays upright
+  Trajectory tilted = circle(12);  // all pitched down by 20 degrees about their own x axis: the mean remains upright
   for (auto& pose : tilted) {
     pose.T_world_camera = pose.T_world_camera * SE3(so3_exp({-0.35, 0.0, 0.0}), Eigen::Vector3d::Zero());
   }

@@ -15,7 +15,7 @@
 namespace odosplat {
 namespace {
 
-/// 1 m at the left to 4 m at the right, with a hole; `more` [m] on top, all times `factor`.
+/// Depth from 1 m at the left to 4 m at the right, with a hole; plus `more` [m], all times `factor`.
 DepthImage ramp(float more = 0.0F, float factor = 1.0F) {
   DepthImage depth(60, 80);
   for (int y = 0; y < depth.rows; ++y) {
@@ -84,7 +84,7 @@ TEST(DepthFigure, GetsLighterWithDepthAndHatchesHoles) {
   EXPECT_GT(count_near(image, hatch_dark, 0), 100);
   EXPECT_GT(count_near(image, hatch_light, 0), 200);
   figure.depth = DepthImage(60, 80, 2.0F);
-  // Without holes only the swatch that explains the hatching is left.
+  // Without holes only the sample that explains the hatching remains.
   EXPECT_LT(count_near(draw_depth(figure), hatch_light, 0), 200);
 }
 
@@ -176,14 +176,14 @@ TEST(CompareFigure, RefusesWhatDoesNotFit) {
 TEST(ErrorPlot, CurvesLieWhereTheirValuesAre) {
   // 5 mm and 10 mm on an axis from 0 to 15 mm: two levels, in the right order and a third of the axis apart.
   const cv::Mat3b image = draw_error_plot(two_curves({800, 0}));
-  const cv::Rect body(200, 90, 550, 240);  // clear of the legend
+  const cv::Rect body(200, 90, 550, 240);  // without the legend
   const double low = center_of(image(body), series_color(0), 3).y;
   const double high = center_of(image(body), series_color(1), 3).y;
   EXPECT_GT(low, high);
   int top = -1;
   int bottom = -1;
   const Rgb black(0, 0, 0);
-  for (int y = 0; y < image.rows; ++y) {  // the frame's two rows are the only ones that are black right across
+  for (int y = 0; y < image.rows; ++y) {  // only the two rows of the frame are black over the whole width
     if (image(y, 300) != black || image(y, 500) != black || image(y, 700) != black) continue;
     if (top < 0) top = y;
     bottom = y;
@@ -226,7 +226,7 @@ TEST(ErrorPlot, AFewTinyErrorsDoNotStretchALogarithmicScale) {
   ErrorPlot plot = two_curves({800, 0});
   plot.log_scale = true;
   plot.series[0].errors.assign(100, 0.001);
-  const cv::Rect body(200, 90, 550, 290);  // clear of the legend
+  const cv::Rect body(200, 90, 550, 290);  // without the legend
   const auto height_of_second = [&] { return center_of(draw_error_plot(plot)(body), series_color(1), 3).y; };
   const double whole = height_of_second();
   plot.series[0].errors[0] = 1e-7;

@@ -43,17 +43,17 @@ TEST(MapFigure, ARedPointIsWhereItIsSaidToBe) {
 }
 
 TEST(MapFigure, OpensTheRoomLikeADollsHouse) {
-  // Ceiling and near walls would hide the floor: paint the floor green and count it.
+  // The ceiling and the near walls would hide the floor: the floor is painted green and its pixels are counted.
   MapFigure figure = room_figure({480, 360});
   for (std::size_t i = 0; i < figure.map.cloud.points.size(); ++i) {
     if (figure.map.cloud.points[i].y() > 1.2F) figure.map.cloud.colors[i] = {0.0F, 0.7F, 0.0F};
   }
   const int open = count_near(draw_map(figure), {0, 179, 0}, 4);
   EXPECT_GT(open, 480 * 360 / 8);
-  figure.map.cloud.normals.clear();  // found again from the points themselves, but for the rows along the edges
+  figure.map.cloud.normals.clear();  // estimated from the points, except near edges
   const int estimated = count_near(draw_map(figure), {0, 179, 0}, 4);
   EXPECT_GT(estimated, open * 8 / 10);
-  figure.cameras.clear();  // no cameras, no sides, no cut: the house is shut
+  figure.cameras.clear();  // without cameras the normals have no side and there is no cut: the floor is hidden
   figure.up = {0.0, -1.0, 0.0};
   EXPECT_LT(count_near(draw_map(figure), {0, 179, 0}, 4), open / 4);
 }
@@ -109,7 +109,7 @@ TEST(MapFigure, BrokenPointsAreLeftOutAndUnevenArraysRefused) {
   MapFigure figure = room_figure({200, 150});
   const cv::Mat3b sound = draw_map(figure);
   figure.map.cloud.points.emplace_back(std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F);
-  EXPECT_THROW(draw_map(figure), InputError);  // colours, normals and radii are one short now
+  EXPECT_THROW(draw_map(figure), InputError);  // colours, normals and radii have one entry less
   figure.map.cloud.normals.emplace_back(0.0F, -1.0F, 0.0F);
   figure.map.cloud.colors.emplace_back(1.0F, 0.0F, 0.0F);
   figure.map.radii.push_back(0.06F);
@@ -128,7 +128,7 @@ TEST(MapFigure, ALongTitleStaysOnThePage) {
 TEST(MapFigure, FarFromTheOriginLooksTheSame) {
   MapFigure figure = room_figure({320, 240});
   const cv::Mat3b here = draw_map(figure);
-  const Eigen::Vector3d shift(4096.0, -1024.0, 2048.0);  // floats hold the room's points there to 0.5 mm
+  const Eigen::Vector3d shift(4096.0, -1024.0, 2048.0);  // floats represent the room's points there to 0.5 mm
   for (auto& p : figure.map.cloud.points) p += shift.cast<float>();
   for (auto& pose : figure.cameras) {
     pose.T_world_camera = SE3(pose.T_world_camera.rotation(), pose.T_world_camera.translation() + shift);

@@ -18,7 +18,7 @@ const Rgb white(255, 255, 255);
 const Rgb red(255, 0, 0);
 const Rgb green(0, 160, 0);
 
-/// Every test of this program runs without an X server to talk to.
+/// Every test of this program runs without an X server.
 class NoDisplay : public testing::Environment {
  public:
   void SetUp() override {
@@ -32,7 +32,7 @@ FigureView perspective_view(int width, int height) {
   FigureView view;
   view.size = {width, height};
   view.focal = 300.0;
-  view.cx = 0.5 * (width - 1) + 20.0;  // off the middle, to catch a wrong sign
+  view.cx = 0.5 * (width - 1) + 20.0;  // off centre, to detect a wrong sign
   view.cy = 0.5 * (height - 1) - 10.0;
   view.T_world_view = SE3(so3_exp({0.2, -0.4, 0.3}), {1.0, -2.0, 0.5});
   return view;
@@ -109,7 +109,7 @@ TEST(OffscreenWindow, ColorsArriveUnchanged) {
 }
 
 TEST(OffscreenWindow, TilesJoinWithoutASeam) {
-  // Wider than a tile: a horizontal band must run through without a break.
+  // Wider than a tile: a horizontal band must continue without a gap.
   OffscreenWindow window;
   FigureView view;
   view.size = {5000, 40};
@@ -163,7 +163,7 @@ TEST(OffscreenWindow, OneAThread) {
   const FigureLayer layer = ball_layer(view.T_world_view * Eigen::Vector3d(0.0, 0.0, 3.0), 0.4, red);
   const cv::Mat3b expected = OffscreenWindow().render({layer}, view, white);
   std::vector<cv::Mat3b> pictures(3);
-  for (auto& picture : pictures) {  // one after another: VTK itself is not made for several at once
+  for (auto& picture : pictures) {  // one after another, as VTK does not support several at once
     std::thread([&] { picture = OffscreenWindow().render({layer}, view, white); }).join();
   }
   for (const auto& picture : pictures) EXPECT_TRUE(same_bytes(picture, expected));

@@ -40,7 +40,7 @@ TEST(TrajectoriesFigure, TruthLiesOverTheEstimateWhereBothAgree) {
   const int together = count_near(draw_trajectories(figure), estimate_color, 0);
   figure.panels[0].truth.clear();
   EXPECT_LT(together, count_near(draw_trajectories(figure), estimate_color, 0));
-  // Half a metre apart, both are seen whole.
+  // Half a metre apart, both are completely visible.
   figure = four_circles({800, 0});
   figure.panels.resize(1);
   for (StampedPose& pose : figure.panels[0].estimate) {

@@ -60,13 +60,13 @@ TEST(LostStretches, AreTheGapsOfTheEstimate) {
   EXPECT_EQ(straight[0].size(), 2U);
   const Trajectory middle(truth.begin() + 20, truth.begin() + 70);
   EXPECT_EQ(lost_stretches(middle, truth).size(), 2U);
-  // What no image was of is not lost.
+  // Times without images do not count as lost.
   EXPECT_TRUE(lost_stretches(middle, truth, TimeSpan{truth[20].time, truth[69].time}).empty());
   const auto end = lost_stretches(middle, truth, TimeSpan{truth[20].time, truth[89].time});
   ASSERT_EQ(end.size(), 1U);
   EXPECT_EQ(end[0].size(), 21U);  // frames 69 to 89
   EXPECT_EQ(lost_stretches(gap, truth, TimeSpan{truth[0].time, truth[99].time}).size(), 1U);
-  Trajectory every_third;  // a slower camera is not a lost one
+  Trajectory every_third;  // a slower camera is not lost
   for (std::size_t k = 0; k < truth.size(); k += 3) every_third.push_back(truth[k]);
   EXPECT_TRUE(lost_stretches(every_third, truth).empty());
 }
@@ -80,7 +80,7 @@ TEST(TrajectoryFigure, ColorsFollowTheErrors) {
     figure.errors.assign(figure.estimate.size(), error);
     const cv::Mat3b image = draw_trajectory(figure);
     const double share = path_scale_start + (path_scale_end - path_scale_start) * std::min(error / 0.1, 1.0);
-    // The panels alone: the colour bar below them has every colour.
+    // Only the panels, since the colour bar below them has all colours.
     return count_near(image(cv::Rect(0, 0, 800, 400)), scale_color(ColorScale::error, share), 2);
   };
   const int low = count_at(0.0);
@@ -101,8 +101,8 @@ TEST(TrajectoryFigure, MarksLostStretches) {
 }
 
 TEST(TrajectoryFigure, TheScaleBarIsTrue) {
-  // A path 4 m long from above and the black bar of the panel from above: their lengths must agree with its label,
-  // which is read by its place on the 1-2-5 scale: at most three tenths of the panel.
+  // A path of 4 m seen from above, and the scale bar of that panel: its length must match its label of 1 m, the largest
+  // of the 1-2-5 series that takes at most three tenths of the panel.
   TrajectoryFigure figure;
   figure.size = {800, 600};
   for (int k = 0; k <= 40; ++k) {

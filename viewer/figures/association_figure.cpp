@@ -16,7 +16,7 @@
 namespace odosplat {
 namespace {
 
-// The far end of the whole scale is too pale for points on white paper.
+// Upper end of the colour scale used: the colours beyond it are too pale for points on white.
 constexpr double scale_end = 0.85;
 constexpr double near_plane_m = 0.05;
 
@@ -26,7 +26,7 @@ struct SeenPoint {
   double depth = 0.0;  // [m]
 };
 
-/// Far ones first, so that near ones are drawn over them.
+/// Visible points, far ones first, so that near ones are drawn over them.
 std::vector<SeenPoint> seen_points(const AssociationFigure& figure) {
   std::vector<SeenPoint> seen;
   const SE3 T_camera_world = figure.T_world_camera.inverse();
@@ -52,7 +52,7 @@ cv::Mat3b points_panel(const AssociationFigure& figure, const ValueRange& range,
   if (seen.empty()) return panel.pixels();
   const double sx = static_cast<double>(size.width) / figure.camera.width;
   const double sy = static_cast<double>(size.height) / figure.camera.height;
-  // Dots as wide as half the mean distance of neighbours leave the gaps open that interpolation has to bridge.
+  // The diameter is half the mean distance of neighbours, so that the gaps between the points remain visible.
   const double spacing = std::sqrt(static_cast<double>(size.area()) / static_cast<double>(seen.size()));
   const double radius = std::clamp(0.25 * spacing, 0.8, 0.012 * size.width);
   for (const SeenPoint& point : seen) {
@@ -94,7 +94,7 @@ cv::Mat3b draw_association(const AssociationFigure& figure) {
     return std::min(0.5 * (page.width() - 3.0 * gap_of(letters)),
                     0.5 * (page.height() - height_of(0.0, letters)) / shape);
   };
-  // A flat page: letters give way before the pictures do, down to half their size.
+  // On a flat page the font is reduced before the pictures are, down to half its size.
   const double least_font = std::max(4.0, 0.5 * font);
   while (font > least_font && panel_width_for(font) < 0.3 * page.width()) font = std::max(least_font, 0.95 * font);
   const double gap = gap_of(font);

@@ -12,10 +12,10 @@
 
 namespace odosplat {
 
-/// What `view association` shows (the paper's Figure 1): depth that a view gets by interpolation between the points of
-/// a discrete map and depth rendered from Gaussians; below them the points themselves as the view sees them.
+/// Content of `view association` (the paper's Figure 1): depth of a view interpolated between the points of a discrete
+/// map, and depth rendered from Gaussians; below them the points themselves in the same view.
 struct AssociationFigure {
-  cv::Size size{1600, 0};  // [px]; height 0: as the panels need
+  cv::Size size{1600, 0};  // [px]; height 0: as needed by the panels
   Camera camera;
   SE3 T_world_camera;
   PointCloud cloud;         // m, world; may be empty
@@ -27,11 +27,10 @@ struct AssociationFigure {
   std::string title;        // one line
 };
 
-/// Draws the figure: R, G, B, of the size asked for, on white. One depth scale for points and images; images are
-/// hatched in grey where there is no depth. A point is drawn where it falls, on white, unless the rendered surface
-/// stands more than 3 cm and 2 % of its depth before it: seen through walls, points would tell nothing. Same input,
-/// same bytes. Needs no OpenGL. Any thread. Throws InputError for a bad size or camera, and for images of another size
-/// than the camera's.
+/// Draws the figure: R, G, B, of the given size, on white. Points and depth images have the same depth scale; pixels
+/// without depth are hatched in grey. Points are drawn on white; a point more than 3 cm plus 2 % of the depth behind
+/// the rendered surface is occluded and left out. Same input, same bytes. Needs no OpenGL. Any thread. Throws
+/// InputError for an invalid size or camera, and for images of another size than the camera's.
 cv::Mat3b draw_association(const AssociationFigure& figure);
 
 }  // namespace odosplat

@@ -19,7 +19,7 @@ namespace {
 
 bool is_depth(float v) { return v > 0.0F && std::isfinite(v); }
 
-/// The same image with 0 for everything that is no depth.
+/// A copy of the image with 0 for all invalid depths.
 DepthImage cleaned(const DepthImage& depth) {
   DepthImage result = depth.clone();
   for (float& v : result) v = is_depth(v) ? v : 0.0F;
@@ -28,7 +28,7 @@ DepthImage cleaned(const DepthImage& depth) {
 
 struct MethodError {
   cv::Mat1f image;      // [m], -1 = none
-  DepthErrors figures;  // what the caption says
+  DepthErrors figures;  // for the caption
 };
 
 MethodError method_error(const DepthImage& depth, const DepthImage& truth) {
@@ -44,11 +44,11 @@ MethodError method_error(const DepthImage& depth, const DepthImage& truth) {
   return error;
 }
 
-/// One unit for all medians and one for all RMSE, so that they can be compared at a glance.
+/// The caption. All medians have the same unit, and all RMSE, so that they are easy to compare.
 std::vector<std::string> caption(const DepthErrors& figures, const LengthUnit& median_unit,
                                  const LengthUnit& rmse_unit) {
   if (!(figures.valid_share > 0.0)) return {"no depth"};
-  // Rounded down: 100 % is to mean every pixel.
+  // Rounded down, so that 100 % means every pixel.
   const int percent = static_cast<int>(std::floor(100.0 * figures.valid_share + 1e-9));
   return {"median " + short_number(figures.median_abs_m * median_unit.factor) + " " + median_unit.name,
           "RMSE " + short_number(figures.rmse_m * rmse_unit.factor) + " " + rmse_unit.name,
@@ -74,7 +74,7 @@ void check(const CompareFigure& figure) {
   }
 }
 
-/// Where everything goes, in pixels.
+/// Layout, in pixels.
 struct Grid {
   double font = 0.0;
   double gap = 0.0;
@@ -136,7 +136,7 @@ cv::Mat3b draw_compare(const CompareFigure& figure) {
   Grid grid;
   grid.columns = static_cast<int>(methods) + (with_truth ? 2 : 1);
   const auto lay_out = [&](double panel_width) {
-    // A column of 8.6 cm holds four panels in which 5 points are this share of the width.
+    // In a column 8.6 cm wide with four panels, 5 points are this share of a panel's width.
     grid.font = std::max(4.0, 0.088 * panel_width);
     grid.gap = 0.4 * grid.font;
     grid.panel = {std::max(4, static_cast<int>(panel_width)), std::max(4, static_cast<int>(panel_width * shape))};
@@ -205,7 +205,7 @@ cv::Mat3b draw_compare(const CompareFigure& figure) {
           line += 1.2 * font;
         }
       }
-      // The free cells under image and truth hold the two scales.
+      // The colour bars of both scales are placed in the free cells below image and truth.
       double bar_y = below + 0.2 * font;
       if (!example.name.empty()) {
         words(example.name, {grid.x(0) + 0.5 * panel_width, bar_y + 0.5 * font}, panel_width);

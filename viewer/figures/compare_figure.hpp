@@ -10,7 +10,7 @@
 
 namespace odosplat {
 
-/// A depth image under its method's name.
+/// A depth image with the name of its method.
 struct NamedDepth {
   std::string name;  // "interpolated", "rendered"
   DepthImage depth;  // [m], 0 or not finite = none
@@ -24,21 +24,21 @@ struct CompareExample {
   DepthImage truth;                 // [m], 0 = none; may be empty: no errors then
 };
 
-/// What `view compare` shows (the paper's Figure 4): image | each method's depth | true depth, and below each method
-/// its error; one depth scale and one error scale for all.
+/// Content of `view compare` (the paper's Figure 4): image | each method's depth | true depth, and below each method
+/// its error. All depths have the same scale, and all errors.
 struct CompareFigure {
-  cv::Size size{2400, 0};                // [px]; height 0: as the panels need
+  cv::Size size{2400, 0};                // [px]; height 0: as needed by the panels
   std::vector<CompareExample> examples;  // one or more
-  double depth_min = 0.0;  // [m] ends of the depth scale; both 0: from the truth (without it: from the methods)
+  double depth_min = 0.0;  // [m] ends of the depth scale; both 0: from the truth (without truth: from the methods)
   double depth_max = 0.0;  // [m]
-  double error_max = 0.0;  // [m] end of the error scale; 0: a round figure over 90 % of the errors
+  double error_max = 0.0;  // [m] end of the error scale; 0: the 90th percentile of the errors, rounded up
 };
 
-/// Draws the figure: R, G, B, of the size asked for, on white. Hatched in grey: pixels without depth, and without error
-/// for want of the method's or the true depth. Under each error: median and RMSE over the pixels that have both depths,
-/// and the share of the pixels with true depth at which the method has one. Text is 5 points or more where the figure
-/// is printed a column (8.6 cm) wide. Same input, same bytes. Needs no OpenGL. Any thread.
-/// Throws InputError for a bad size, no examples, methods that differ between examples, images of different sizes.
+/// Draws the figure: R, G, B, of the given size, on white. Hatched in grey: pixels without depth, and pixels without
+/// error because the method's or the true depth is missing. Under each error: median and RMSE over the pixels that have
+/// both depths, and the share of the pixels with true depth for which the method has one. Text is at least 5 points if
+/// the figure is printed one column (8.6 cm) wide. Same input, same bytes. Needs no OpenGL. Any thread.
+/// Throws InputError for an invalid size, no examples, methods that differ between examples, images of different sizes.
 cv::Mat3b draw_compare(const CompareFigure& figure);
 
 }  // namespace odosplat

@@ -12,14 +12,14 @@
 namespace odosplat {
 namespace {
 
-constexpr double bar_share = 0.8;  // of the font size: thickness of a colour bar
+constexpr double bar_share = 0.8;  // thickness of a colour bar / font size
 constexpr double line_share = 1.15;
 
 int font_pixels(double font) { return std::max(4, static_cast<int>(std::lround(font))); }
 
 struct PlacedTick {
   double at = 0.0;     // [px] from the bar's left end
-  double label = 0.0;  // middle of its label, which does not pass the bar's ends
+  double label = 0.0;  // [px] centre of its label, moved so that the label stays within the bar
   std::string text;
 };
 
@@ -39,7 +39,7 @@ std::vector<PlacedTick> place_ticks(const ColorBar& bar, int count, double body,
   return placed;
 }
 
-/// As many round ticks as can stand side by side.
+/// As many round ticks as fit without overlapping labels.
 std::vector<PlacedTick> fitting_ticks(const ColorBar& bar, double body, double width, int font) {
   for (int count = 6;; --count) {
     std::vector<PlacedTick> placed = place_ticks(bar, count, body, width, font);
@@ -53,7 +53,7 @@ std::vector<PlacedTick> fitting_ticks(const ColorBar& bar, double body, double w
   }
 }
 
-/// "2 m", "50 cm", "2 mm": the unit in which a round length has the fewest digits.
+/// A round length in the unit with the fewest digits: "2 m", "50 cm", "2 mm".
 std::string round_length_text(double metres) {
   if (metres >= 1000.0) return short_number(metres / 1000.0, 1) + " km";
   if (metres >= 1.0) return short_number(metres, 1) + " m";
@@ -123,7 +123,7 @@ void draw_axes(Page& page, const FigureView& view, cv::Point2d center, double ra
   const Eigen::Matrix3d R_view_world = view.T_world_view.rotation_matrix().transpose();
   const std::array<const char*, 3> names{"x", "y", "z"};
   std::array<int, 3> order{0, 1, 2};
-  // The one that points to the reader is drawn last.
+  // Drawn from back to front.
   std::ranges::sort(order, [&](int a, int b) { return R_view_world(2, a) > R_view_world(2, b); });
   for (const int axis : order) {
     const Eigen::Vector2d way = R_view_world.col(axis).head<2>();
@@ -131,7 +131,7 @@ void draw_axes(Page& page, const FigureView& view, cv::Point2d center, double ra
     const cv::Point2d end(center.x + arm * way.x(), center.y + arm * way.y());
     page.line(center, end, 0.26 * font, Rgb(255, 255, 255));
     page.line(center, end, 0.1 * font, Rgb(0, 0, 0));
-    if (way.norm() < 0.2) continue;  // seen end on: its letter would lie on the others
+    if (way.norm() < 0.2) continue;  // parallel to the line of sight: its letter would overlap the others
     const Eigen::Vector2d at = (arm + 0.45 * font) * way.normalized() * std::min(1.0, way.norm() + 0.1);
     page.text(names[static_cast<std::size_t>(axis)], {center.x + at.x(), center.y + at.y()},
               {.size = 0.8 * font, .x = AlignX::center}, true);

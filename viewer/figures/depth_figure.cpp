@@ -24,7 +24,7 @@ struct Panel {
   ColorBar bar;
 };
 
-/// What nearly all values lie below: a few strays at the map's border are many times the rest.
+/// 95th percentile of the valid values: single values at the map's border can be many times larger than the rest.
 double most_of(const cv::Mat1f& image) {
   std::vector<float> values;
   std::ranges::copy_if(image, std::back_inserter(values), [](float v) { return v > 0.0F && std::isfinite(v); });
@@ -111,7 +111,7 @@ cv::Mat3b draw_depth(const DepthFigure& figure) {
   const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
   const double shape = figure.depth.empty() ? 0.75 : static_cast<double>(figure.depth.rows) / figure.depth.cols;
 
-  // All lengths below are in font sizes first, as the page's own height may hang on them.
+  // Lengths are multiples of the font size here, because the page's height may depend on them.
   const auto layout_height = [&](double panel_height, double font) {
     double height = 0.4 * font + (figure.title.empty() ? 0.0 : 1.5 * font);
     for (int row = 0; row < rows; ++row) {
@@ -133,7 +133,7 @@ cv::Mat3b draw_depth(const DepthFigure& figure) {
     const double free_height = page.height() - layout_height(0.0, font);
     return std::min((page.width() - (columns + 1) * 0.6 * font) / columns, free_height / rows / shape);
   };
-  // A page flatter than the panels need: words give way before the pictures do, down to half their size.
+  // On a page flatter than the panels need, the font is reduced before the pictures are, down to half its size.
   const double least_font = std::max(4.0, 0.5 * font);
   while (font > least_font && fitting_width() < 0.6 * page.width() / columns) font = std::max(least_font, 0.95 * font);
   const double gap = 0.6 * font;

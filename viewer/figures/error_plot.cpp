@@ -63,7 +63,8 @@ std::vector<double> log_ticks(const Range& y) {
   return ticks;
 }
 
-/// Dashes by the distance along the time axis: along a noisy curve they would crumble.
+/// The dash pattern follows the time axis, not the curve's length: on a noisy curve it would otherwise be too fine to
+/// see.
 void draw_dashes(Page& page, const std::vector<cv::Point2d>& points, double width, const Rgb& color, double dash) {
   std::vector<cv::Point2d> piece;
   const auto flush = [&]() {
@@ -97,7 +98,7 @@ void draw_curve(Page& page, const Axes& axes, const ErrorSeries& series, double 
   std::vector<cv::Point2d> run;
   const auto flush = [&]() {
     if (run.size() == 1) page.disc(run[0], width, series_color(index));
-    // Dashes for every second curve: colours alone do not survive a grey print.
+    // Every second curve is dashed, so that curves can be told apart in greyscale prints.
     if (index % 2 == 0) {
       page.polyline(run, width, series_color(index));
     } else {
@@ -136,7 +137,8 @@ cv::Mat3b draw_error_plot(const ErrorPlot& plot) {
   const Range x{0.0, time.high > time.low ? time.high - time.low : 1.0};
   Range y{0.0, nice_ceiling(error.high * unit.factor * 1.02)};
   if (plot.log_scale) {
-    // A hundredth lies lower: a path starts at no error at all, and one such frame would take up half the plot.
+    // The lower end is the 1 % quantile: an error near zero, such as that of the first frame, would otherwise take up
+    // half of the plot.
     const auto low_place = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 100);
     if (!positive.empty()) std::nth_element(positive.begin(), low_place, positive.end());
     const double low = (positive.empty() ? error.high : *low_place) * unit.factor;

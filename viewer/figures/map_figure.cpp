@@ -21,7 +21,7 @@ struct MapLayout {
   double font = 0.0;
   int title_height = 0;
   MapScenery scenery;
-  FigureView view;  // of the page below the title
+  FigureView view;  // of the page without the title
 };
 
 std::vector<Eigen::Vector3d> positions_of(const Trajectory& cameras) {
@@ -67,10 +67,10 @@ void add_frustum(FigureMesh& mesh, const Camera& camera, const SE3& T_world_came
   }
 }
 
-/// Some of the cameras, at even steps, without those that would be drawn over another that looks the same way.
+/// Cameras at even steps, without those that would overlap another shown camera with a similar viewing direction.
 std::vector<SE3> shown_cameras(const MapFigure& figure, double depth) {
-  constexpr double clear = 1.5;     // frusta [depths]
-  constexpr double same_way = 0.5;  // cosine
+  constexpr double clear = 1.5;     // distance within which frusta overlap [frustum depths]
+  constexpr double same_way = 0.5;  // cosine of the angle between viewing directions
   std::vector<SE3> shown;
   const auto count = std::min<std::size_t>(static_cast<std::size_t>(figure.frusta), figure.cameras.size());
   for (std::size_t k = 0; k < count; ++k) {

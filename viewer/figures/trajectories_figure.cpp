@@ -14,7 +14,7 @@
 namespace odosplat {
 namespace {
 
-// Light enough that the black line over it stays visible in grey, dark enough to stand on white.
+// Light enough that the black line over it is visible in greyscale, dark enough for a white background.
 const Rgb estimate_color(230, 159, 0);
 const Rgb truth_color(0, 0, 0);
 const Rgb lost_color(0, 90, 220);
@@ -29,7 +29,7 @@ Path positions(const Trajectory& trajectory) {
   return path;
 }
 
-/// The estimate without bridges over what was lost.
+/// The estimate, divided at lost frames.
 std::vector<Path> unbroken(const Trajectory& estimate) {
   std::vector<Path> stretches;
   const double longest = longest_step(estimate);
@@ -53,7 +53,7 @@ void draw_panel(Page& page, const TrajectoryPanel& panel, const cv::Rect& box, d
   std::vector<Eigen::Vector3f> points;
   for (const auto& p : all) points.push_back(p.cast<float>());
   const Eigen::Vector3d up = panel.up.norm() > 0.0 ? panel.up : estimate_up(cameras);
-  // The scale bar has a strip of its own below the paths.
+  // A strip below the paths is reserved for the scale bar.
   const int strip = static_cast<int>(std::lround(1.9 * font));
   const cv::Size free(box.width, std::max(4, box.height - strip));
   const FigureView view = view_from_above(plan_axes(up, points, {}), all, free, 0.06);

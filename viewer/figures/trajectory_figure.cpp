@@ -23,9 +23,9 @@ const Rgb truth_color(0, 0, 0);
 const Rgb unknown_color(0, 114, 178);
 const Rgb lost_color(0, 90, 220);
 
-/// What is drawn, beside the map.
+/// The paths that are drawn.
 struct Paths {
-  std::vector<std::vector<Eigen::Vector3d>> estimate;  // unbroken stretches
+  std::vector<std::vector<Eigen::Vector3d>> estimate;  // parts between lost frames
   std::vector<std::vector<Rgb>> colors;
   std::vector<std::vector<Eigen::Vector3d>> lost;
   std::vector<Eigen::Vector3d> truth;
@@ -76,7 +76,7 @@ double find_error_max(const TrajectoryFigure& figure, const std::vector<double>&
   return nice_ceiling(std::max(high, 1e-6));
 }
 
-/// The path in the middle of the panel with enough of the map around it to know the place.
+/// Corners of the region to show: the path with enough of the map around it to recognise the place.
 std::vector<Eigen::Vector3d> to_hold(const Paths& paths, const MapScenery& scenery) {
   Eigen::AlignedBox3d box;
   const auto in_axes = [&](const Eigen::Vector3d& p) {

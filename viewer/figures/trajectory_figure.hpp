@@ -12,42 +12,41 @@
 
 namespace odosplat {
 
-/// From one time to another [s], both included.
+/// A time interval [s], both ends included.
 struct TimeSpan {
   double first = 0.0;
   double last = 0.0;
 };
 
-/// What `view trajectory` shows: an estimated path over the paled map, from above and in perspective, coloured by its
-/// error, with the true path as a thin black line in it, the start, and dashes where tracking was lost.
+/// Content of `view trajectory`: an estimated path over the lightened map, from above and in perspective, coloured by
+/// its error, with the true path as a thin black line on it, the start, and dashes where tracking was lost.
 struct TrajectoryFigure {
   cv::Size size{1600, 0};        // [px]; height 0: three quarters of the width
   MapPoints map;                 // may be empty
   Trajectory estimate;           // posed frames only, in the map's frame (already aligned, if at all)
   Trajectory truth;              // may be empty: no errors then
-  std::optional<TimeSpan> span;  // of the images that were to be posed; none: that of the truth
+  std::optional<TimeSpan> span;  // of the images that should have poses; none: that of the truth
   std::vector<double> errors;    // [m], as many as the estimate, NaN = unknown; empty: distances from the truth
-  double error_max = 0.0;        // [m] end of the colour scale; 0: a round figure over 99 % of the errors
+  double error_max = 0.0;        // [m] end of the colour scale; 0: the 99th percentile of the errors, rounded up
   Eigen::Vector3d up = Eigen::Vector3d::Zero();  // of the world; zero: from the cameras
   double cut_height = automatic_cut;             // [m] along up; see prepare_map
   std::string title;                             // one line, such as "ATE RMSE 4.1 mm, max 9.8 mm"
 };
 
-/// Draws the figure: R, G, B, of the size asked for, on white. Panels stand side by side on wide pages, else one over
-/// the other. Lost stretches: truth where the estimate has a gap of more than two and a half of its usual steps;
-/// without truth a straight line over the gap. Nothing to show gives empty panels, not an error. Same input, same
-/// bytes. Throws InputError for a bad size or arrays of different lengths, std::runtime_error where there is no OpenGL.
+/// Draws the figure: R, G, B, of the given size, on white. Panels are side by side on wide pages, otherwise one above
+/// the other. Lost parts: the truth where the estimate has a gap of more than 2.5 times its median time step; without
+/// truth a straight line over the gap. No data give empty panels, not an error. Same input, same bytes. Throws
+/// InputError for an invalid size or arrays of different lengths, std::runtime_error if there is no OpenGL.
 cv::Mat3b draw_trajectory(const TrajectoryFigure& figure);
 
-/// Distance [m] of each estimated position from the true one of the same time, associated as associate() does within
-/// `tolerance` [s]; NaN where there is none.
+/// Distance [m] of each estimated position from the true one of the same time, associated by associate() within
+/// `tolerance` [s]; NaN if there is none.
 std::vector<double> position_errors(const Trajectory& estimate, const Trajectory& truth, double tolerance = 0.01);
 
-/// Gap in time [s] over which an estimate counts as broken: two and a half of its usual steps; infinite for fewer than
-/// two poses.
+/// Time gap [s] above which frames count as lost: 2.5 times the median time step; infinite for fewer than two poses.
 double longest_step(const Trajectory& estimate);
 
-/// Paths along which the estimate is missing, as told above; what is not in the span is not missing.
+/// Paths of the parts where the estimate is missing, as described above; nothing outside the span counts as missing.
 std::vector<std::vector<Eigen::Vector3d>> lost_stretches(const Trajectory& estimate, const Trajectory& truth,
                                                          const std::optional<TimeSpan>& span = {});
 

@@ -29,7 +29,7 @@ const SequenceFacts* find_sequence(const BenchmarkResults& results, const std::s
   return found == results.sequences.end() ? nullptr : &*found;
 }
 
-/// The first run that went through; null if there is none.
+/// The first run that succeeded; null if there is none.
 const RunFacts* first_run(const BenchmarkResults& results, const std::string& sequence, const std::string& method) {
   const auto found = std::ranges::find_if(results.cells, [&](const RunFacts& run) {
     return run.sequence == sequence && run.method == method && run.fault.empty() && !run.estimate.empty();
@@ -42,7 +42,7 @@ std::string ours(const BenchmarkResults& results) {
   return found != results.methods.end() ? *found : results.methods.empty() ? "" : results.methods.front();
 }
 
-/// "icl_2 (stand-in)": pictures travel without their captions.
+/// "icl_2 (stand-in)": the label is part of the picture because pictures are passed on without their captions.
 std::string labelled(const BenchmarkResults& results, const std::string& name) {
   const SequenceFacts* sequence = find_sequence(results, name);
   const bool stand_in = results.stand_in || (sequence != nullptr && sequence->stand_in);
@@ -55,7 +55,7 @@ std::string listed(const BenchmarkResults& results, const std::vector<std::strin
   return text;
 }
 
-/// `wanted` as far as `usable` says yes; if not all are there, the first usable ones of the results, as many.
+/// `wanted` if all of them are usable; otherwise the first usable sequences of the results, at most as many as wanted.
 std::vector<std::string> chosen(const BenchmarkResults& results, const std::vector<std::string>& wanted,
                                 const std::function<bool(const SequenceFacts&)>& usable) {
   std::vector<std::string> all;
@@ -76,8 +76,8 @@ std::vector<std::string> with_maps(const BenchmarkResults& results, const Maps& 
   });
 }
 
-/// Near `share` of what was tested (the sequence's part with a truth in the results), halfway between two of the frames
-/// 0, 10, 20, ... that maps are made of.
+/// A frame at about `share` (0..1) of the tested part of the sequence, which the truth in the results spans. It lies
+/// halfway between two mapping frames (0, 10, 20, ...).
 std::size_t frame_at(const Sequence& sequence, const Trajectory& truth, double share) {
   std::size_t begin = 0;
   std::size_t end = sequence.size();
@@ -123,7 +123,7 @@ ReportFigure draw_comparison_figure(const Common& common, const BenchmarkResults
   for (const std::string& name : names) {
     const Sequence sequence = Sequence::open(find_sequence(results, name)->path);
     const double own_shape = static_cast<double>(sequence.camera().height) / sequence.camera().width;
-    if (shape > 0.0 && std::abs(own_shape - shape) > 0.01) continue;  // its panels would be stretched
+    if (shape > 0.0 && std::abs(own_shape - shape) > 0.01) continue;  // panels would be stretched
     shape = own_shape;
     ComparedViews views = open_compared_views(common, maps.at(name));
     const std::size_t frame = frame_at(sequence, find_sequence(results, name)->truth, 0.3);
@@ -183,14 +183,14 @@ cv::Mat3b benchmark_errors(const BenchmarkResults& results) {
   for (const SequenceFacts& sequence : results.sequences) {
     if (sequence.truth.empty()) continue;
     ErrorPlot plot;
-    // More methods, more rows of the legend.
+    // The legend has a row for each method.
     plot.size = {1000, 540 + 35 * static_cast<int>(results.methods.size())};
     plot.words = "position error";
     plot.title = labelled(results, sequence.name);
     double smallest = 0.0;
     double largest = 0.0;
     for (const std::string& method : results.methods) {
-      // A method without a run keeps its place, so that each has one colour in all panels.
+      // A method without a run keeps an empty series, so that every method has the same colour in all panels.
       ErrorSeries series{method, {}, {}};
       if (const RunFacts* run = first_run(results, sequence.name, method)) {
         for (const StampedPose& pose : run->estimate) series.times.push_back(pose.time);

@@ -12,17 +12,18 @@
 namespace odosplat::apps {
 
 /// Draws the paper's Figures 1, 4 and 5 and the errors over time into `folder`/figures, for write_reports(). `maps`:
-/// map of Gaussians and cloud of each sequence by its name, as its runs of method gaussian had them. What cannot be
-/// drawn (no map, no run) comes back with the reason and does not stop the others. Throws Interrupted after Ctrl-C,
-/// InputError if the folder cannot be written.
+/// map of Gaussians and cloud of each sequence by its name, as the runs of method gaussian used them. A figure that
+/// cannot be drawn (no map, no run) is returned with the reason; the others are still drawn. Throws Interrupted after
+/// Ctrl-C, InputError if the folder cannot be written.
 std::vector<ReportFigure> draw_benchmark_figures(const Common& common, const BenchmarkResults& results,
                                                  const std::map<std::string, MapFlags>& maps,
                                                  const std::string& folder);
 
-/// The parts that need no map, as pictures.
-/// Up to four sequences, the paper's if they are there; InputError if none has a run and a truth.
+/// The figures that need no map, as images.
+/// Draws the trajectories of up to four sequences, the paper's if they are present; InputError if none has a run and a
+/// truth.
 cv::Mat3b benchmark_trajectories(const BenchmarkResults& results, std::vector<std::string>& drawn);
-/// A panel for each sequence with a run and a truth; InputError if there is none.
+/// Draws a panel for each sequence with a run and a truth. InputError if there is none.
 cv::Mat3b benchmark_errors(const BenchmarkResults& results);
 
 }  // namespace odosplat::apps

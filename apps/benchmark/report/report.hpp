@@ -10,10 +10,12 @@
 
 namespace odosplat::apps {
 
-/// Writes into `folder`: report.md, report.html (one page, figures within), report.json; tables.csv and tables.tex with
-/// all that does not depend on the machine's speed, speed.csv and speed.tex with the rest. Every format prints the
-/// same tables. Incomplete results are reported as they are. Each file is written beside its place and renamed.
-/// Throws InputError if a file cannot be written or a figure cannot be read.
+/// Writes the report into `folder`:
+///   report.md, report.html (one page with the figures embedded), report.json: everything
+///   tables.csv, tables.tex: all that does not depend on the machine's speed
+///   speed.csv, speed.tex: the rest
+/// All formats print the same tables. Incomplete results are reported as they are. Each file is written to a temporary
+/// file and renamed. Throws InputError if a file cannot be written or a figure cannot be read.
 void write_reports(const BenchmarkResults& results, const std::vector<ReportFigure>& figures,
                    const std::string& folder);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// The tables of errors, ours and the paper's.
+// The tables of errors: measured ones and the paper's.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace odosplat::apps {
 namespace {
 
 constexpr int decimals = 4;
-// A run that posed less is not judged by the same frames as the others.
+// A run with a lower coverage is evaluated on other frames than the others, so it is not ranked.
 constexpr double least_ranked_coverage = 0.9;
 constexpr double whole_coverage = 0.99;
 
@@ -26,7 +26,7 @@ const std::array<Metric, 3> metrics{{{"RMSE of ATE (m)", "ate_m", &CellSummary::
 
 bool ranked(const CellSummary& summary) { return summary.complete() && summary.coverage.low >= least_ranked_coverage; }
 
-/// Never rounded up: 100 % is every frame.
+/// Rounded down, so that 100 % means every frame.
 double percent_of(double share) { return std::floor(1000.0 * share + 1e-9) / 10.0; }
 
 std::string doubt_about(const CellSummary& summary) {

@@ -5,7 +5,7 @@
 namespace odosplat::apps {
 namespace {
 
-/// RFC 4180.
+/// A field quoted as RFC 4180 says.
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

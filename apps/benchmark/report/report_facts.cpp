@@ -39,7 +39,7 @@ ReportTable sequences_table(const BenchmarkResults& results) {
     row.cells.push_back(s.texture < 0.0 ? words_cell("-") : number_cell(100.0 * s.texture, 1));
     row.cells.push_back(words_cell(s.checksum.empty() ? "-" : s.checksum));
     row.cells.push_back(words_cell(s.convention.empty() ? "-" : s.convention));
-    // Own and foreign sequences may stand in one suite: the table's label alone would not tell them apart.
+    // A suite may mix stand-ins and recorded sequences: the table's label does not tell which rows are stand-ins.
     if (s.stand_in) row.cells.front().note = table.note_number("stand-in, made by this program");
     table.rows.push_back(std::move(row));
   }

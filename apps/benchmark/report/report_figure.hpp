@@ -10,9 +10,9 @@ namespace odosplat::apps {
 struct ReportFigure {
   std::string file;     // PNG, relative to the report's folder: "figures/association.png"
   std::string title;    // "Trajectories (the paper's Figure 5)"
-  std::string caption;  // sentences; carry the label "stand-in" where the picture shows numbers of stand-ins
-  std::string missing;  // why it could not be drawn; empty: the file is there
-  bool wide = false;    // many panels: to be shown as wide as the page, others a column wide
+  std::string caption;  // sentences; contains the label "stand-in" where the picture shows results on stand-ins
+  std::string missing;  // why it could not be drawn; empty: the file exists
+  bool wide = false;    // many panels: shown across the page; otherwise one column wide
 };
 
 }  // namespace odosplat::apps

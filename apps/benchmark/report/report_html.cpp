@@ -96,7 +96,7 @@ std::string cell_text(const ReportCell& cell) {
   if (cell.mark == RankMark::second) text = "<u>" + text + "</u>";
   if (cell.note > 0) text += "<sup>" + std::to_string(cell.note) + "</sup>";
   if (!cell.spread.empty()) {
-    // In print, where nothing scrolls, a wide table breaks it there.
+    // A permitted line break within the spread, for wide tables in print, where nothing scrolls.
     std::string spread = escaped(cell.spread);
     spread.insert(spread.find("..") + 2, "<wbr>");
     text += "<small>" + spread + "</small>";

@@ -7,7 +7,7 @@
 namespace odosplat::apps {
 namespace {
 
-/// Underscores within words are left alone, as Markdown leaves them.
+/// Escapes Markdown's special characters. Underscores within words are not escaped: Markdown does not interpret them.
 std::string escaped(const std::string& text) {
   const auto in_word = [&](std::size_t i) {
     return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_');
@@ -69,7 +69,7 @@ std::string table_text(const ReportTable& table) {
     rules += "---|";
   }
   for (const ReportColumn& column : table.columns) {
-    // Markdown has one row of heads: the group goes above its column's own.
+    // Markdown tables have one header row: the group's name goes above the column's own in the same cell.
     heads += " " + (column.group.empty() ? "" : escaped(column.group) + "<br>") + escaped(column.head) + " |";
     rules += column.words ? "---|" : "---:|";
   }

@@ -57,7 +57,7 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// A comment ends with its line.
+/// Without line breaks: a comment of TeX ends at the end of its line.
 std::string one_line(std::string text) {
   for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;
   return text;
@@ -72,7 +72,7 @@ std::string cell_text(const ReportCell& cell) {
   return text;
 }
 
-/// A wide table gets small letters: no package that scales is asked for.
+/// Font size by the number of columns, so that wide tables fit without a package for scaling.
 std::string letters_for(std::size_t columns) {
   if (columns <= 8) return "\\footnotesize";
   if (columns <= 12) return "\\scriptsize\\setlength{\\tabcolsep}{3pt}";
@@ -123,7 +123,7 @@ std::string table_text(const ReportTable& table) {
   return text + "\\end{table*}\n";
 }
 
-/// The table with the columns of one group, whose name goes to the title.
+/// The columns of one group as a table of its own, with the group's name in the title.
 ReportTable part_of(const ReportTable& table, const std::string& group, std::size_t number) {
   ReportTable part = table;
   part.key += "_" + std::to_string(number);
@@ -147,7 +147,7 @@ bool too_wide(const ReportTable& table) {
   return table.has_groups() && spread && table.columns.size() > columns_with_spread;
 }
 
-/// Spreads make columns too wide for all groups to stand side by side: then each is a table of its own.
+/// With spreads, the groups are too wide to stand side by side: then each group becomes a table of its own.
 std::string table_or_parts(const ReportTable& table) {
   if (!too_wide(table)) return table_text(table);
   std::string text;

@@ -10,26 +10,26 @@
 #include "odosplat/core/trajectory.hpp"
 #include "odosplat/eval/evaluate.hpp"
 
-/// What a benchmark found, as the reports print it: plain data, complete or not. A run that has not been made, or that
-/// crashed, is in it too, with its reason.
+/// Results of a benchmark as the reports print them: plain data, possibly incomplete. A run that has not been made, or
+/// that crashed, is included with its reason.
 namespace odosplat::apps {
 
 /// A row of the table of sequences (the paper's Table 1).
 struct SequenceFacts {
   std::string name;   // "icl_1"
   std::string scene;  // "living_room": sequences of one scene share a world frame
-  std::string words;  // of the scene, for the table: "Living room"
+  std::string words;  // name of the scene in tables
   std::string path;   // folder
   int frames = 0;     // images
   double seconds = 0.0;
-  double length_m = 0.0;   // of the true path, frame to frame
+  double length_m = 0.0;   // of the true path, sum over consecutive frames
   int width = 0;           // [px]
   int height = 0;          // [px]
-  std::string checksum;    // of images' and truth's bytes, hexadecimal; empty: not known
-  std::string convention;  // verdict of `odosplat check` in a line; empty: not checked
-  double texture = -1.0;   // share of pixels with a gradient over 8 grey levels a pixel; < 0: not known
-  bool stand_in = false;   // made here, not the data set of that name
-  std::string fault;       // why there are no facts; empty: there are
+  std::string checksum;    // of the bytes of images and truth, hexadecimal; empty: unknown
+  std::string convention;  // verdict of `odosplat check` in one line; empty: not checked
+  double texture = -1.0;   // share of pixels with a gradient over 8 grey levels per pixel; < 0: unknown
+  bool stand_in = false;   // rendered by this program in place of the data set of that name
+  std::string fault;       // why the facts are missing; empty: they are present
   Trajectory truth;        // T_world_camera of its images
 };
 
@@ -42,7 +42,7 @@ struct MapFacts {
   double seconds = 0.0;
   double psnr_db = 0.0;  // on the training images
   double peak_memory_mb = 0.0;
-  std::string fault;  // why there is none; empty: there is
+  std::string fault;  // why there is no map; empty: there is one
 };
 
 /// One run of one method on one sequence.
@@ -52,14 +52,14 @@ struct RunFacts {
   int run = 1;             // 1 .. runs
   std::uint64_t seed = 0;  // of the run
   std::string fault;       // "killed by signal 11 (Segmentation fault)", "over 3600 s", "not run yet"; empty: it ran
-  // What follows is valid without a fault only.
+  // The following fields are valid only if fault is empty.
   int frames = 0;
   int posed = 0;
   int lost = 0;
   int relocalisations = 0;
   EvalResult unaligned;       // final trajectory against the truth, in the map's frame
   EvalResult aligned;         // the same after an SE(3) alignment
-  double live_ate_m = 0.0;    // RMSE of the poses as known when the frames came, unaligned
+  double live_ate_m = 0.0;    // RMSE of the poses reported while tracking (before later refinement), unaligned
   double ms_per_frame = 0.0;  // wall time, median
   double p95_ms = 0.0;        // wall time, 95th percentile
   double cpu_ms = 0.0;        // CPU time of all threads, mean
@@ -68,12 +68,12 @@ struct RunFacts {
 };
 
 struct BenchmarkResults {
-  std::string suite;                 // "synthetic", "icl", or the name a suite file gives itself
+  std::string suite;                 // "synthetic", "icl", or the name in the suite file
   bool stand_in = false;             // sequences are stand-ins: labelled wherever numbers appear
   std::string mapping;               // protocol in a sentence: which frames and clouds the maps are made of
   bool split = false;                // --mapping split: no tested sequence's images in its map
-  std::string quick;                 // words on what --quick cut short; empty: nothing
-  std::vector<std::string> methods;  // in the order asked for; "gaussian" is ours
+  std::string quick;                 // what --quick shortened, in words; empty: nothing
+  std::vector<std::string> methods;  // in the requested order; "gaussian" is this project's own
   int runs = 1;
   std::vector<SequenceFacts> sequences;
   std::vector<MapFacts> maps;
@@ -81,14 +81,14 @@ struct BenchmarkResults {
   std::string machine;          // processor, number of cores
   std::string device;           // OpenCL device
   std::string version;          // of odosplat
-  std::string command;          // that makes these results
+  std::string command;          // command line that reproduces these results
 };
 
-/// The runs of one method on one sequence put together: medians over those that went through, and their spread.
+/// The runs of one method on one sequence combined: median and spread over those that succeeded.
 struct CellSummary {
-  int runs = 0;       // that went through
-  int failed = 0;     // that did not
-  std::string fault;  // the first failed run's
+  int runs = 0;       // number that succeeded
+  int failed = 0;     // number that failed
+  std::string fault;  // of the first failed run
   struct Value {
     double median = 0.0;
     double low = 0.0;
@@ -103,11 +103,12 @@ struct CellSummary {
 std::optional<CellSummary> summarise(const BenchmarkResults& results, const std::string& sequence,
                                      const std::string& method);
 
-/// Places 1 (best) and 2 among methods by the smallest value, as printed (two values that print alike share a place;
-/// after two firsts there is no second, as in the paper's tables); 0 for the others and for those without a value.
+/// Ranks 1 (best) and 2 of methods by their values, the smallest first, compared as printed. Methods whose values print
+/// alike share a rank; after two of rank 1 there is no rank 2, as in the paper's tables. 0 for all others and for those
+/// without a value.
 std::vector<int> places(const std::vector<std::optional<double>>& values, int decimals);
 
-/// The figure of a paper: "x" for a crash.
+/// A value of the paper's tables.
 struct PaperRow {
   const char* sequence;
   const char* method;

@@ -25,7 +25,7 @@
 namespace odosplat::apps {
 namespace {
 
-/// What the demo says about one way of getting depth.
+/// Results of the demo for one source of depth.
 struct Row {
   std::string method;
   TrackOutcome track;
@@ -40,7 +40,7 @@ Row run_method(const Common& common, const std::string& out, const DemoWorld& wo
   TrackJob track;
   track.sequence.path = world.sequence;
   track.method = method;
-  track.anchor = true;  // interpolation too: without, it would be the paper's ablation, which drifts
+  track.anchor = true;  // also for interpolation: without the anchor it would be the paper's ablation, which drifts
   track.map = {out + "/map.ply", world.cloud};
   track.out = out + "/" + method;
   row.track = track_sequence(common, track);

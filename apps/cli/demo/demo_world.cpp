@@ -38,7 +38,7 @@ DemoWorld make_demo_world(const std::string& out, const DemoOptions& options) {
   DemoWorld world;
   world.sequence = out + "/sequence";
   world.cloud = out + "/cloud.ply";
-  const double focal = 0.78125 * options.width;  // 65 degrees across
+  const double focal = 0.78125 * options.width;  // horizontal field of view of 65 degrees
   world.camera = {options.width, options.height, focal, focal, 0.5 * options.width - 0.5, 0.5 * options.height - 0.5};
   world.camera.check();
   world.truth = walk(options);

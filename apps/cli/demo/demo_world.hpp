@@ -18,7 +18,7 @@ struct DemoOptions {
   std::uint64_t seed = 1;
 };
 
-/// What stands in for a recorded sequence and a scanner's cloud.
+/// Replaces a recorded sequence and a scanned cloud.
 struct DemoWorld {
   std::string sequence;  // folder in TUM layout, with true depth and poses (for judging only)
   std::string cloud;     // PLY
@@ -26,8 +26,8 @@ struct DemoWorld {
   Trajectory truth;
 };
 
-/// Furnishes a room, walks a camera through it, scans it with a simulated lidar; writes OUT/sequence and OUT/cloud.ply.
-/// The same options give the same bytes.
+/// Renders a camera's path through a furnished synthetic room and scans the room with a simulated lidar. Writes
+/// OUT/sequence and OUT/cloud.ply. The same options give the same bytes.
 DemoWorld make_demo_world(const std::string& out, const DemoOptions& options);
 
 }  // namespace odosplat::apps

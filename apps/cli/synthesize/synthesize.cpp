@@ -21,8 +21,8 @@
 namespace odosplat::apps {
 namespace {
 
-constexpr double focal_share = 0.75;      // of the width, as ICL-NUIM's camera
-constexpr double least_clearance = 0.15;  // [m] a camera that comes nearer would be in the furniture
+constexpr double focal_share = 0.75;      // focal length / width, as of ICL-NUIM's camera
+constexpr double least_clearance = 0.15;  // [m] a camera nearer to a surface would be inside the furniture
 
 struct SynthesizeFlags {
   bool list = false;
@@ -68,7 +68,7 @@ SyntheticCamera camera_of(const SynthesizeFlags& flags, const SensorCharacter& c
   return camera;
 }
 
-/// Everything that the frames depend on.
+/// All settings that the frames depend on.
 std::string settings_text(const SynthesizeFlags& flags, const SyntheticCamera& camera) {
   const bool built_in = flags.scene.find_first_of("./") == std::string::npos;
   char text[400];
@@ -162,7 +162,7 @@ void add_synthesize(CLI::App& app, Common& common) {
   add_number(command, "--seed", flags->seed, {}, "seed of textures and noise");
   add_number(command, "--voxel", flags->voxel, {.least = 0.0, .most = 1000.0, .least_excluded = true},
              "edge of the cloud's voxels, a point each [m]");
-  const char* of_walk = "walk";  // as the walk's description has it
+  const char* of_walk = "walk";  // default: the value in the walk's description
   add_number(command, "--noise", flags->noise, {.least = 0.0, .most = 0.5, .word = of_walk},
              "standard deviation of colours, which are 0 to 1; walk: as the walk has it");
   add_number(command, "--exposure-swing", flags->exposure_swing, {.least = 0.0, .most = 0.9, .word = of_walk},

@@ -77,13 +77,13 @@ int write_synthetic_sequence(const SyntheticSequence& sequence, const std::funct
   const MadeFolders made = claim_folder(sequence);
   std::vector<std::size_t> missing;
   for (std::size_t k = 0; k < sequence.truth.size(); ++k) {
-    // A frame's colour is written after its depth.
+    // Colour is written after depth, so a frame with colour is complete.
     if (!fs::exists(sequence.folder + "/" + file_of("rgb", k))) missing.push_back(k);
   }
   if (!missing.empty()) {
     const Scene& world = scene();
     const auto total = static_cast<int>(missing.size());
-    // A thread a frame: the files are packed on all threads too.
+    // One frame per thread, so that the compression of the files runs in parallel too.
     const int batch = 2 * threads();
     Progress progress("render frames", total);
     for (int first = 0; first < total; first += batch) {

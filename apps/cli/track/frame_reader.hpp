@@ -15,9 +15,8 @@
 
 namespace odosplat::apps {
 
-/// Reads grey images of a sequence's frames in a range, in order on a thread of its own, ahead of whoever uses them,
-/// and keeps at most `ahead` of them. What reading a frame throws is thrown by the take() that wants it. take() from
-/// one thread.
+/// Reads the grey images of a range of frames in order on its own thread, up to `ahead` images before they are taken.
+/// An exception from reading a frame is thrown by the take() of that frame. take() must be called from one thread.
 class FrameReader {
  public:
   explicit FrameReader(const Sequence& sequence, const FrameRange& range = {}, std::size_t ahead = 8);
@@ -25,8 +24,8 @@ class FrameReader {
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;
 
-  /// Frame i, waiting until it is read; i must grow from call to call. Frames before it that were not taken are given
-  /// up, those not yet read without reading them.
+  /// Waits for frame i and returns it; i must grow from call to call. Skipped frames are discarded, or not read at all
+  /// if reading them has not begun.
   GrayImage take(std::size_t i);
 
  private:
@@ -45,9 +44,9 @@ class FrameReader {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Entry> entries_;  // in order
-  std::size_t wanted_ = 0;     // no frame before this one is
+  std::size_t wanted_ = 0;     // frames before this one are not wanted
   bool stop_ = false;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // declared last: the thread uses all members above
 };
 
 }  // namespace odosplat::apps

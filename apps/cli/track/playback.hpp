@@ -13,20 +13,19 @@
 
 namespace odosplat::apps {
 
-/// Hands out frames of a sequence at the rate of their stamps, as a camera would: frame i comes (time(i) - time(begin))
-/// seconds after the range's first, which comes at construction. Who asks late gets the newest that has come; those
-/// before it are dropped. A pause of over 60 s between two stamps is played as 1 s, and named on the log: it is a fault
-/// of the stamps, or nobody wants to wait for it.
+/// Plays the frames of a sequence at the rate of their time stamps, like a live camera: the first frame of the range is
+/// due at construction, frame i (time(i) - time(begin)) seconds later. A caller that is late gets the newest frame that
+/// is due; older ones are dropped. A pause of over 60 s between two stamps is played as 1 s with a warning, because it
+/// is either an error in the stamps or too long to wait for.
 class Playback {
  public:
-  /// InputError if the stamps are further apart than any camera's (median over 5 s), as stamps in milliseconds are.
+  /// InputError if the stamps are too far apart for any camera (median over 5 s): they are probably not in seconds.
   Playback(const Sequence& sequence, const FrameRange& range);
 
-  /// Waits for the next frame if none has come since the last call. Nothing after the last frame, or as soon as
-  /// `stopped` says so.
+  /// Waits until the next frame is due and returns it. Nothing after the last frame, or if `stopped` returns true.
   std::optional<std::size_t> next(const std::function<bool()>& stopped);
 
-  /// Frames passed over by the last call of next().
+  /// Number of frames dropped by the last call of next().
   std::size_t dropped() const { return dropped_; }
 
  private:
@@ -34,7 +33,7 @@ class Playback {
   Clock::time_point due(std::size_t i) const;
 
   const FrameRange range_;
-  std::vector<double> after_;  // of each frame of the range: seconds after the first
+  std::vector<double> after_;  // for each frame of the range: seconds after the first
   Clock::time_point start_;
   std::size_t next_;
   std::size_t dropped_ = 0;

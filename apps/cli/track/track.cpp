@@ -53,15 +53,16 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence, const FrameRange& 
                    "it has no true pose to start from; give --start auto, or --start \"tx ty tz qx qy qz qw\"");
 }
 
-/// Shows the frame's depth to a sensor's view, which a keyframe that is made later must still see; null for maps.
+/// Sets the frame's depth image in a sensor's view and returns a copy of the view, because a keyframe made later from
+/// this frame still needs its depth; null for maps.
 std::shared_ptr<SensorView> sensor_view_of(OpenedView& opened, const Sequence& sequence, std::size_t i) {
   if (opened.sensor == nullptr) return nullptr;
   opened.show_frame(sequence, i);
   return std::make_shared<SensorView>(*opened.sensor);
 }
 
-/// The range without the frames at its begin that cannot be read, which are recorded as lost: the start pose is that of
-/// the first image that is tracked. InputError if no frame can be read.
+/// The range without unreadable frames at its beginning, which are recorded as lost: the start pose belongs to the
+/// first image that is tracked. InputError if no frame can be read.
 FrameRange readable_range(const Sequence& sequence, FrameRange range, OpenedView& opened, TrackRecord& record) {
   for (; range.begin < range.end; ++range.begin) {
     if (interrupted()) throw Interrupted();
@@ -77,7 +78,7 @@ FrameRange readable_range(const Sequence& sequence, FrameRange range, OpenedView
                    " frames can be read: " + record.first_fault());
 }
 
-/// A run in the making: what the two ways of playing a sequence share.
+/// State of a run; shared by play() and play_in_real_time().
 class Run {
  public:
   Run(const TrackJob& job, const Sequence& sequence, const FrameRange& range, OpenedView& opened, Odometry& odometry,
@@ -91,7 +92,7 @@ class Run {
         reader_(sequence, range),
         progress_("track", static_cast<long>(range.end - range.begin)) {}
 
-  /// Every frame, one after the other. False after Ctrl-C.
+  /// Tracks every frame in order. False after Ctrl-C.
   bool play() {
     for (std::size_t i = range_.begin; i < range_.end; ++i) {
       if (interrupted()) return false;
@@ -101,7 +102,7 @@ class Run {
     return true;
   }
 
-  /// At the sequence's own rate: frames that are no longer the newest are dropped.
+  /// Plays at the sequence's own rate: frames that are no longer the newest are dropped. False after Ctrl-C.
   bool play_in_real_time() {
     Playback playback(sequence_, range_);
     while (const std::optional<std::size_t> i = playback.next([this] {
@@ -117,7 +118,7 @@ class Run {
     return true;
   }
 
-  /// Writes the results so far, or all of them.
+  /// Writes the results so far; finished: they are complete.
   TrackOutcome write(bool finished) {
     const TrackOutcome outcome = record_.outcome(odometry_, cpu_seconds() - cpu_before_);
     record_.write(job_, outcome, odometry_, opened_.device ? opened_.device->device().name : "none", finished);
@@ -146,7 +147,7 @@ class Run {
     write_now_and_then();
   }
 
-  /// One file that is damaged is no reason to lose the others' poses.
+  /// Reads a frame. An unreadable file loses only its own frame: it is recorded, and nothing is returned.
   std::optional<GrayImage> read(std::size_t i, std::shared_ptr<SensorView>& view) {
     try {
       view = sensor_view_of(opened_, sequence_, i);
@@ -157,17 +158,18 @@ class Run {
     }
   }
 
-  /// A run that is killed leaves what it had some seconds before. Long tables are written more rarely.
+  /// Writes intermediate results, so that a run that is killed loses only a few seconds. If writing takes long, it is
+  /// done more rarely.
   void write_now_and_then() {
     constexpr double interval = 5.0;
-    constexpr double share = 0.02;  // of the time, for writing
+    constexpr double share = 0.02;  // largest share of the time spent on writing
     if (since_write_.seconds() < next_write_ || record_.tracked() == written_) return;
     written_ = record_.tracked();
     const Stopwatch watch;
     try {
       write(false);
       next_write_ = std::max(interval, watch.seconds() / share);
-    } catch (const InputError& e) {  // such as a full disk: at the end there may be room
+    } catch (const InputError& e) {  // for example a full disk, which may have space again later
       log_warning(e.what());
       next_write_ *= 4.0;
     }
@@ -184,8 +186,8 @@ class Run {
   Progress progress_;
   const double cpu_before_ = cpu_seconds();
   Stopwatch since_write_;
-  double next_write_ = 5.0;  // [s] after the last time
-  std::size_t written_ = 0;  // frames tracked when it was written
+  double next_write_ = 5.0;  // [s] between two writes
+  std::size_t written_ = 0;  // number of tracked frames at the last write
   bool warned_of_camera_ = false;
 };
 
@@ -216,7 +218,8 @@ namespace {
 std::unique_ptr<Odometry> start_odometry(const TrackJob& job, const Sequence& sequence, const FrameRange& range,
                                          const OpenedView& opened, Relocalizer* relocalizer) {
   const OdometryOptions options = odometry_options(job);
-  // The first rendering loads the device's programs, and a look-up renders every place: a camera would not wait.
+  // The first rendering loads the device's programs and the first look-up renders all places. In real time this is done
+  // in advance, because frames would be dropped meanwhile.
   if (job.start == "auto") {
     if (job.realtime) relocalizer->prepare();
     return std::make_unique<Odometry>(sequence.camera(), *opened.view, options, *relocalizer);
@@ -231,7 +234,8 @@ std::unique_ptr<Odometry> start_odometry(const TrackJob& job, const Sequence& se
   return odometry;
 }
 
-/// Before an error is passed on: it is the error that is to be told, not that this fails too.
+/// Writes the results so far while an error is being passed on. A failure here is only logged, so that the first error
+/// is the one reported.
 void write_what_there_is(Run& run, const TrackRecord& record) {
   if (record.tracked() == 0) return;
   try {
@@ -268,7 +272,7 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
     write_what_there_is(run, record);
     throw;
   }
-  if (!played && record.tracked() == 0) throw Interrupted();  // an earlier run's results are worth more than none
+  if (!played && record.tracked() == 0) throw Interrupted();  // keeps the results of an earlier run
   const TrackOutcome outcome = run.write(played);
   if (record.unreadable() > 0) {
     log_warning(std::to_string(record.unreadable()) + " of " + std::to_string(outcome.frames) +

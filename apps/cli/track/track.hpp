@@ -10,17 +10,17 @@
 
 namespace odosplat::apps {
 
-/// What lost frames are looked up by, and a start that is not known; null where neither is wanted, and for a depth
-/// sensor, which has no places (InputError if it should start anywhere). map must outlive it.
+/// Relocaliser for lost frames and for --start auto. Null if neither is requested, and for a depth sensor, which has no
+/// places to look from (InputError if --start is auto). map must outlive it.
 std::unique_ptr<Relocalizer> make_relocalizer(const TrackJob& job, const Camera& camera, MapView& map, bool sensor);
 
-/// How the odometry is set for this method and these flags.
+/// Options of the odometry for the job's method and flags.
 OdometryOptions odometry_options(const TrackJob& job);
 
 /// Tracks a sequence in a map and writes trajectory.txt, trajectory_live.txt, status.csv, covariance.csv and
-/// report.json to the folder `out`. A frame whose files cannot be read is lost, for the reason in status.csv;
+/// report.json to the folder `out`. A frame whose files cannot be read is lost, with the reason in status.csv;
 /// InputError if no frame can be read. The files are written every few seconds, and before an error is passed on, so
-/// that a run that ends early leaves the frames so far. After Ctrl-C they hold the frames so far, and Interrupted is
+/// that a run that ends early leaves the results so far. After Ctrl-C the results so far are written and Interrupted is
 /// thrown.
 TrackOutcome track_sequence(const Common& common, const TrackJob& job);
 

@@ -15,7 +15,7 @@
 namespace odosplat::apps {
 namespace {
 
-/// A field of a table: in quotes where a reader would else take it for several, without what moves a cursor.
+/// Text as a CSV field: control characters become blanks; quoted if it contains a comma or a quotation mark.
 std::string csv_field(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';
@@ -58,7 +58,7 @@ void TrackRecord::add_unreadable(const Sequence& sequence, std::size_t i, const 
 TrackOutcome TrackRecord::outcome(const Odometry& odometry, double cpu_seconds) const {
   TrackOutcome o;
   o.trajectory = odometry.trajectory();
-  // The odometry knows times as numbers; files repeat the stamps of the input.
+  // The odometry stores times as numbers; the files repeat the input's time stamps as text.
   std::size_t k = 0;
   for (StampedPose& pose : o.trajectory) {
     while (rows_[k].time != pose.time) ++k;

@@ -12,26 +12,26 @@
 
 namespace odosplat::apps {
 
-/// Everything that a run writes, gathered frame by frame.
+/// Collects the results of a run frame by frame and writes its files.
 class TrackRecord {
  public:
   void add(const Sequence& sequence, std::size_t i, const TrackResult& result);
-  /// A frame whose files cannot be read: it is lost, for this reason, and the first is named on the log.
+  /// Adds a frame whose files cannot be read: it counts as lost for this reason. The first one is logged.
   void add_unreadable(const Sequence& sequence, std::size_t i, const std::string& reason);
   std::size_t unreadable() const { return unreadable_; }
-  /// Why the first of them cannot be read.
+  /// Reason of the first unreadable frame.
   const std::string& first_fault() const { return first_fault_; }
-  /// Frames tracked.
+  /// Number of frames tracked.
   std::size_t tracked() const { return rows_.size() - unreadable_; }
-  /// Frames that were never tracked: they are in no file but report.json, which counts them.
+  /// Counts frames that were never tracked: they appear only as a count in report.json.
   void drop(std::size_t frames) { dropped_ += static_cast<int>(frames); }
   int dropped() const { return dropped_; }
 
-  /// cpu_seconds: of the whole process, for reading, rendering and tracking.
+  /// cpu_seconds: of the whole process, including reading and rendering.
   TrackOutcome outcome(const Odometry& odometry, double cpu_seconds) const;
 
-  /// trajectory.txt, trajectory_live.txt, status.csv, covariance.csv and report.json, to the folder job.out. finished:
-  /// no frames are to come.
+  /// Writes trajectory.txt, trajectory_live.txt, status.csv, covariance.csv and report.json to the folder job.out.
+  /// finished: no more frames follow.
   void write(const TrackJob& job, const TrackOutcome& outcome, const Odometry& odometry, const std::string& device,
              bool finished) const;
 

@@ -12,8 +12,8 @@
 
 namespace odosplat::apps {
 
-/// Long work that runs in a few stages and cannot say how far it is: after 2 s a progress line names the stage and how
-/// long it has been at it, redrawn while it lasts.
+/// Progress of long work in a few stages whose own progress is unknown: after 2 s a progress line shows the stage and
+/// its elapsed time, updated while it lasts.
 class Stages {
  public:
   /// what: a word or two ("prepare"); total: the number of stages.
@@ -22,13 +22,13 @@ class Stages {
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
 
-  /// The next one begins ("smoothing the cloud").
+  /// Begins the next stage ("smoothing the cloud").
   void next(const std::string& name);
 
  private:
   void tick();
 
-  Progress progress_;  // of the ticker alone
+  Progress progress_;  // used only by the ticker's thread
   std::mutex mutex_;
   std::condition_variable changed_;
   int done_ = -1;

@@ -53,7 +53,8 @@ InitializeOptions initialize_options(const TrainJob& job) {
 }
 
 std::string progress_text(const TrainingStep& step, const TrainingReport& report) {
-  // Of one image alone it would tell how dark that image is. Zero: no image has been seen at full size yet.
+  // The report's mean over images: the PSNR of a single image depends on its brightness. 0: no image has been seen at
+  // full size yet.
   char psnr[24] = "-";
   if (report.psnr_db > 0.0) std::snprintf(psnr, sizeof(psnr), "%.2f dB", report.psnr_db);
   char text[160];
@@ -64,7 +65,8 @@ std::string progress_text(const TrainingStep& step, const TrainingReport& report
 
 std::string checkpoint_file(const TrainJob& job) { return job.out + ".checkpoint"; }
 
-/// Goes on from the last checkpoint where one is wanted and there is one.
+/// Resumes from the last checkpoint if --resume is given and there is one. Without --resume an existing checkpoint is
+/// renamed, not overwritten.
 void take_up(const TrainJob& job, Trainer& trainer) {
   const std::string file = checkpoint_file(job);
   const bool there = std::filesystem::is_regular_file(file);
@@ -81,13 +83,13 @@ void take_up(const TrainJob& job, Trainer& trainer) {
   try {
     trainer.resume(Checkpoint::read(file));
   } catch (const InputError& e) {
-    // Errors of the state itself do not know the file.
+    // Errors about the checkpoint's content do not name the file: it is added.
     throw std::string(e.what()).starts_with(file) ? e : InputError(file, e.what());
   }
   log_info("going on from iteration " + std::to_string(trainer.iteration()) + " of " + file);
 }
 
-/// A checkpoint that cannot be written costs no training: a full disk may have room again at the next one.
+/// Writes a checkpoint. A failure is only a warning: training continues, and the next checkpoint may succeed.
 bool save(const TrainJob& job, const Trainer& trainer) {
   try {
     trainer.checkpoint().write(checkpoint_file(job));
@@ -98,7 +100,7 @@ bool save(const TrainJob& job, const Trainer& trainer) {
   }
 }
 
-/// Steps until all are done, with checkpoints. After Ctrl-C a checkpoint and Interrupted.
+/// Runs all remaining steps and writes checkpoints. After Ctrl-C it writes a checkpoint and throws Interrupted.
 void run(const TrainJob& job, Trainer& trainer) {
   const SavesWhenInterrupted saves;
   Progress progress("train", trainer.options().iterations);
@@ -163,14 +165,14 @@ void write_report(const TrainJob& job, const TrainedMap& made, const SequenceVie
                               {"images", json_of_views(made.views, views)}};
   for (const auto& [name, value] : job.options.items()) json["options"][name] = std::stod(value);
   if (device.profiling()) {
-    nlohmann::ordered_json& stages = json["stages_ms"];  // a step, not the whole run
+    nlohmann::ordered_json& stages = json["stages_ms"];  // mean per step
     for (const compute::StageTime& stage : device.stage_times())
       stages[stage.stage] = stage.milliseconds / std::max(1, report.iterations);
   }
   write_file_atomically(job.report, json_text(json));
 }
 
-/// What disagrees with the rest, by name, a few of them.
+/// Logs the names of a few of the images that disagree with the others.
 void name_odd_images(const std::vector<ViewQuality>& qualities, const SequenceViews& views) {
   constexpr int most = 5;
   std::string names;
@@ -219,7 +221,7 @@ TrainOutcome run_training(const Common& common, const TrainJob& job) {
   Trainer trainer(device, options, prepared.gaussians, views, prepared.surface.get());
   take_up(job, trainer);
   run(job, trainer);
-  const bool saved = save(job, trainer);  // judging takes time, and may be interrupted
+  const bool saved = save(job, trainer);  // before the evaluation, which takes time and may be interrupted
   const TrainedMap trained = [&] {
     Stages stages("finish", 2);
     return finish_training(device, trainer, prepared, views, facts_of(job, views),

@@ -10,7 +10,7 @@
 namespace odosplat::apps {
 namespace {
 
-/// What is wrong with each frame's image; empty: nothing.
+/// Reads every frame's image and returns the fault of each; empty: none.
 std::vector<std::string> image_faults(const Sequence& sequence, const std::vector<std::size_t>& frames) {
   std::vector<std::string> faults(frames.size());
   parallel_for(static_cast<int>(frames.size()), 1, [&](int begin, int end) {

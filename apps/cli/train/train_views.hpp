@@ -11,11 +11,11 @@
 
 namespace odosplat::apps {
 
-/// Every Nth posed frame of some sequences, read from disk when asked for. Frames whose image cannot be read are left
-/// out, with one warning; damaged depth is none.
+/// Every Nth posed frame of some sequences, read from disk when requested. Frames whose image cannot be read are left
+/// out, with one warning; a damaged depth image counts as missing.
 class SequenceViews : public TrainingViews {
  public:
-  /// Reads every image once. InputError for a sequence that cannot be read or has no such frame.
+  /// Reads every image once to check it. InputError for a sequence that cannot be read or has no such frame.
   SequenceViews(const std::vector<std::string>& paths, const SequenceOptions& options, int every,
                 const FrameRange& range);
 
@@ -25,7 +25,7 @@ class SequenceViews : public TrainingViews {
   ColorImage color(int i) override { return sequence(i).color(at(i).frame); }
   DepthImage depth(int i) override;
 
-  /// Where view i comes from.
+  /// Sequence and frame number of view i.
   std::string sequence_name(int i) const { return sequence(i).name(); }
   std::size_t frame(int i) const { return at(i).frame; }
   const std::vector<Sequence>& sequences() const { return sequences_; }

@@ -73,10 +73,11 @@ void run_trajectory(const TrajectoryViewFlags& flags) {
   JudgedTrajectory judged = read_judged(flags.estimate, flags.times, flags.truth);
   figure.estimate = std::move(judged.estimate);
   figure.truth = std::move(judged.truth);
-  // Of which images the run was is not known of other people's trajectories: their ends are not taken for lost.
+  // If the run's images are not known (a trajectory of another program), the span is that of the estimate, so that no
+  // part before or after it counts as lost.
   figure.span = judged.span.value_or(TimeSpan{figure.estimate.front().time, figure.estimate.back().time});
-  // Where the truth was before and after the run says nothing of it.
-  constexpr double slack = 0.01;  // [s] that matched poses may be apart
+  // The truth before and after the run is not drawn.
+  constexpr double slack = 0.01;  // [s] largest time difference of matched poses
   std::erase_if(figure.truth, [&](const StampedPose& pose) {
     return pose.time < figure.span->first - slack || pose.time > figure.span->last + slack;
   });

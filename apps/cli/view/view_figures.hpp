@@ -12,10 +12,10 @@
 /// Figures of a sequence's frames, as `odosplat view` and the benchmark's reports show them.
 namespace odosplat::apps {
 
-/// True pose of a frame; InputError naming `flag` if there is no such frame, or it has no pose.
+/// True pose of a frame; InputError naming `flag` if there is no such frame or it has no pose.
 SE3 pose_of_frame(const Sequence& sequence, std::size_t frame, const std::string& flag = "--frame");
 
-/// The two ways of getting depth that the paper compares, opened once for any number of frames.
+/// Views of the two depth methods that the paper compares, opened once for any number of frames.
 struct ComparedViews {
   OpenedView interpolation;
   OpenedView gaussian;

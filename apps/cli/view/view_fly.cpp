@@ -32,7 +32,7 @@ struct FlyFlags {
   int step = 1;
 };
 
-/// One scale for the whole film, from a few views along it.
+/// One depth range for the whole video, from a few views along the path.
 ValueRange depth_range_along(MapView& view, const Camera& camera, const Trajectory& poses) {
   constexpr std::size_t samples = 12;
   std::vector<DepthImage> depths;

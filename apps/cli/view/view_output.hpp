@@ -13,7 +13,7 @@ namespace CLI {
 class App;
 }  // namespace CLI
 
-/// What the kinds of `odosplat view` share.
+/// Flags and output common to all kinds of `odosplat view`.
 namespace odosplat::apps {
 
 struct ViewOutputFlags {
@@ -24,7 +24,7 @@ struct ViewOutputFlags {
 /// Declares a kind of view that writes a picture: --out, --size.
 CLI::App* add_view_kind(CLI::App* parent, Common& common, const char* name, const char* help, ViewOutputFlags& flags);
 
-/// To be called before anything is computed: proves that the file can be written, and sets figure.size if one was
+/// To be called before anything is computed: checks that the file can be written, and sets figure.size if --size is
 /// given.
 template <typename Figure>
 [[nodiscard]] MadeFolders prepare_picture(const ViewOutputFlags& flags, Figure& figure) {
@@ -36,10 +36,10 @@ template <typename Figure>
   return made;
 }
 
-/// Writes the picture and says so.
+/// Writes the picture and prints its name.
 void save_picture(const ViewOutputFlags& flags, const cv::Mat3b& picture);
 
-/// `odosplat view fly`: a film of a flight through a map.
+/// `odosplat view fly`: a video of a flight through a map.
 void add_view_fly(CLI::App* view, Common& common);
 
 }  // namespace odosplat::apps

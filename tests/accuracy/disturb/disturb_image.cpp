@@ -13,7 +13,7 @@ namespace {
 
 float clipped(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
 
-/// value(y, x) of every pixel, clipped.
+/// An image of value(y, x), clipped to 0..1.
 template <typename Value>
 GrayImage made(int rows, int cols, Value&& value) {
   GrayImage out(rows, cols);

@@ -9,8 +9,8 @@
 #include "odosplat/core/image.hpp"
 #include "odosplat/core/se3.hpp"
 
-/// What can befall an image. Pure functions; values in and out are 0..1 and clipped there, as a camera clips. The given
-/// image is left as it is.
+/// Disturbances of an image. Pure functions: the given image is not changed. Values are 0..1, and results are clipped
+/// to that range as a camera does.
 namespace odosplat::accuracy {
 
 /// Independent normal noise on every pixel. sigma: standard deviation [grey, 0..1].
@@ -19,28 +19,28 @@ GrayImage with_noise(const GrayImage& image, double sigma, std::uint64_t seed);
 /// value^gamma: below 1 brightens the dark parts. gamma > 0.
 GrayImage with_gamma(const GrayImage& image, double gamma);
 
-/// Exposed `gain` times as long: what goes beyond white stays white.
+/// Multiplies all values by gain, as a longer exposure does.
 GrayImage with_gain(const GrayImage& image, double gain);
 
 /// Gain of exposure steps at time [s] >= 0: 1, step, 1, 1 / step and so on, `period` seconds each.
 double exposure_gain(double time, double step, double period);
 
-/// Mean over a path of `length` [px] through every pixel, half of it before and half behind, along direction (u, v) of
-/// any length; a direction of zero blurs along u. Beyond the border the border's value counts.
+/// Mean along a line segment of `length` [px] centred on each pixel, with direction (u, v) of any length; a direction
+/// of zero blurs along u. Outside the image the border's value is used.
 GrayImage with_motion_blur(const GrayImage& image, const Eigen::Vector2d& direction, double length);
 
-/// Image motion [px] of the point that the camera sees in its centre at `depth` [m] when it goes from one pose to
-/// another; zero if the point is then behind the camera.
+/// Motion in the image [px] of the point that is seen at the image centre at `depth` [m] when the camera moves from one
+/// pose to another; zero if the point is then behind the camera.
 Eigen::Vector2d center_motion(const Camera& camera, const SE3& T_world_from, const SE3& T_world_to, double depth);
 
-/// Gain 1 + amplitude sin(2 pi (row / height + phase)): one wave of light over the rows, as lamps that flicker give
-/// with a rolling shutter. phase in turns.
+/// Multiplies by the gain 1 + amplitude sin(2 pi (row / height + phase)): one sine wave over the rows, as flickering
+/// lamps produce with a rolling shutter. phase in cycles.
 GrayImage with_rolling_gain(const GrayImage& image, double amplitude, double phase);
 
-/// Mirrored about the upright (cv::flip's code 1) or the level axis (0).
+/// Mirrored left to right (code 1, as in cv::flip) or upside down (0).
 GrayImage mirrored(const GrayImage& image, int code);
 
-/// The image with its right half from another of the same size.
+/// The image with its right half replaced by that of another image of the same size.
 GrayImage with_right_half(const GrayImage& image, const GrayImage& other);
 
 /// An image of one value.

@@ -27,7 +27,7 @@ void keep_unmarked(std::vector<T>& values, std::size_t width, const std::vector<
   values.resize(kept * width);
 }
 
-/// Applies the edit to positions, and says which rows go and what share changed.
+/// Applies the edit to the positions. Returns the marks of the rows to remove; share: of rows moved or removed.
 std::vector<std::uint8_t> apply(const MapEdit& edit, std::span<float> positions, double& share) {
   const std::vector<float> before(positions.begin(), positions.end());
   std::vector<std::uint8_t> gone = edit(positions);
@@ -77,7 +77,7 @@ std::size_t move_random_pieces(std::span<float> positions, const MoveOptions& op
   constexpr int most_tries = 1000;
   for (int attempt = 0; attempt < most_tries && static_cast<int>(centers.size()) < options.pieces; ++attempt) {
     const Eigen::Vector3f center = points.col(random.below(static_cast<std::uint32_t>(n)));
-    // Two edges apart, no point lies in two pieces.
+    // Centres two edges apart, so that no point is in two pieces.
     const auto near = [&](const Eigen::Vector3f& other) { return (center - other).norm() < 4.0F * half; };
     if (std::any_of(centers.begin(), centers.end(), near)) continue;
     centers.push_back(center);

@@ -15,7 +15,7 @@ class App;
 
 namespace odosplat::accuracy {
 
-/// How strong the disturbances of a run are.
+/// Strengths of the disturbances of a run.
 struct DisturbanceOptions {
   double noise = 8.0;  // [of 255]
   double gamma = 0.6;
@@ -37,14 +37,14 @@ const std::vector<std::string>& map_disturbances();
 /// Declares the flags of DisturbanceOptions. options must outlive the command.
 void add_disturbance_flags(CLI::App* command, DisturbanceOptions& options);
 
-/// What is done to the images of the frames; empty if `name` is no disturbance of images. world must outlive it.
+/// The edit of each frame's image; empty if `name` is not a disturbance of images. world must outlive it.
 std::function<ImageEdit(std::size_t frame)> image_disturbance(const std::string& name, const World& world,
                                                               const DisturbanceOptions& options, std::uint64_t seed);
 
-/// What is done to the map; empty if `name` is no disturbance of maps.
+/// The edit of the map; empty if `name` is not a disturbance of maps.
 MapEdit map_disturbance(const std::string& name, const DisturbanceOptions& options, std::uint64_t seed);
 
-/// A temporary folder for damaged maps, removed with this.
+/// A temporary folder for damaged maps, removed by the destructor.
 class DamagedMaps {
  public:
   DamagedMaps();

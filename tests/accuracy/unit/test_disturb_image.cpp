@@ -64,10 +64,10 @@ TEST(MotionBlur, SpreadsAStepOverItsLengthAlongTheMotion) {
   step.colRange(20, 40).setTo(1.0F);
   const GrayImage along = with_motion_blur(step, {3.0, 0.0}, 5.0);
   EXPECT_EQ(along(10, 16), 0.0F);
-  EXPECT_GT(along(10, 17), 0.0F);  // half of it before the edge, which lies between 19 and 20
+  EXPECT_GT(along(10, 17), 0.0F);  // the kernel reaches half its length to either side of the edge between 19 and 20
   EXPECT_LT(along(10, 22), 1.0F);
   EXPECT_EQ(along(10, 23), 1.0F);
-  EXPECT_NEAR(along(10, 19) + along(10, 20), 1.0F, 1e-5F);  // nothing is shifted
+  EXPECT_NEAR(along(10, 19) + along(10, 20), 1.0F, 1e-5F);  // the edge is not shifted
   EXPECT_TRUE(same(with_motion_blur(step, {0.0, -2.0}, 5.0), step));
 }
 

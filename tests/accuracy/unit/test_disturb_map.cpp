@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Points all over a cube of 4 m.
+/// Points distributed uniformly in a cube of 4 m.
 std::vector<float> cube(std::size_t n) {
   Random random(5);
   std::vector<float> positions;
@@ -32,10 +32,10 @@ TEST(RandomBalls, MarkTheShareInBlobs) {
   const auto positions = cube(5000);
   const auto marked = in_random_balls(positions, 0.2, 0.3, 1);
   EXPECT_GE(count(marked), 1000U);
-  EXPECT_LT(count(marked), 1100U);  // no more than one ball too many
+  EXPECT_LT(count(marked), 1100U);  // at most one ball more than needed
   EXPECT_EQ(marked, in_random_balls(positions, 0.2, 0.3, 1));
   EXPECT_NE(marked, in_random_balls(positions, 0.2, 0.3, 2));
-  // Every marked point has the whole of some ball with it: its neighbours within a small distance are mostly marked.
+  // A marked point is in a ball whose points are all marked, so most of its near neighbours are marked.
   std::size_t near_marked = 0;
   std::size_t near = 0;
   for (std::size_t i = 0; i < marked.size(); ++i) {
@@ -77,7 +77,7 @@ TEST(MovedPieces, MoveAsAWholeByTheDistance) {
   }
   EXPECT_EQ(differ, moved);
   EXPECT_EQ(steps.size(), 2U);
-  // About 5000 (0.7 / 4)^3 = 27 points a cube.
+  // Expected number: 5000 (0.7 / 4)^3 = 27 points per cube.
   EXPECT_GT(moved, 20U);
   EXPECT_LT(moved, 80U);
 }

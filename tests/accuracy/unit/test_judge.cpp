@@ -13,7 +13,7 @@ namespace {
 
 SE3 shifted(double x) { return {Eigen::Quaterniond::Identity(), Eigen::Vector3d(x, 0.0, 0.0)}; }
 
-/// A run whose frame k is off by errors[k] [m]; a negative error: lost.
+/// A run whose frame k has the position error errors[k] [m]; a negative value: lost.
 Run run_with(const std::vector<double>& errors) {
   Run run;
   for (std::size_t k = 0; k < errors.size(); ++k) {
@@ -73,8 +73,8 @@ TEST(NormalisedError, OfErrorsDrawnFromTheCovarianceIsChiSquared) {
     squares += nees * nees;
   }
   const double mean = sum / draws;
-  EXPECT_NEAR(mean, 6.0, 0.25);                           // 4.5 standard deviations of the mean
-  EXPECT_NEAR(squares / draws - mean * mean, 12.0, 2.0);  // chi squared: twice the degrees of freedom
+  EXPECT_NEAR(mean, 6.0, 0.25);                           // tolerance: 4.5 standard deviations of the mean
+  EXPECT_NEAR(squares / draws - mean * mean, 12.0, 2.0);  // variance of chi squared: twice the degrees of freedom
 }
 
 TEST(NormalisedError, IsInfiniteWithoutCovariance) {
@@ -98,7 +98,7 @@ TEST(Recovery, CountsFramesUntilItStays) {
   const auto run = run_with({0.0, -1.0, 0.5, 0.01, 0.01, 0.05, 0.01, 0.01, 0.01, 0.2});
   EXPECT_EQ(frames_until_recovered(run, 1, run.frames.size(), bars), 5);
   EXPECT_EQ(frames_until_recovered(run, 9, run.frames.size(), bars), -1);
-  EXPECT_EQ(frames_until_recovered(run, 3, 5, bars), 0);  // held to the end of what is looked at
+  EXPECT_EQ(frames_until_recovered(run, 3, 5, bars), 0);  // hold is cut at the end of the range
   EXPECT_EQ(wrong_poses(run, 0, run.frames.size(), bars), 2);
   EXPECT_EQ(wrong_poses(run, 3, 9, bars), 0);
 }

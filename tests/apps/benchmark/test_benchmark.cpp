@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// The benchmark command on a suite of one small room: its tables, a stop on the way, faults of its flags.
+// The benchmark command on a suite of one small room: its tables, resuming after a kill, wrong flags.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST_F(Benchmark, WritesEveryReportAndGoesOnAfterAKill) {
     EXPECT_TRUE(std::filesystem::exists(folder / "whole" / file)) << file;
   }
 
-  // Killed once the first run has left its record, which is not the last.
+  // Killed after the record of the first run is written, before the others.
   const auto first = folder / "killed/jobs/track/room/interpolation/1/record.json";
   const RunResult killed = run_odosplat_and_signal(command("killed"), SIGKILL, [&] { return exists(first); });
   EXPECT_EQ(killed.status, 128 + SIGKILL);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Suites and the jobs that are made of them.
+// Reading suites and planning their jobs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -103,7 +103,7 @@ TEST(Suite, TheBuiltInOnesHaveThePapersEightSequences) {
 TEST_F(BenchmarkPlan, OneMapASceneSharedByItsSequences) {
   const Plan plan = make_plan(options);
   EXPECT_EQ(plan.runs.size(), 3U * 6U);
-  EXPECT_EQ(plan.maps.size(), 4U);  // of two scenes, ours and the paper's
+  EXPECT_EQ(plan.maps.size(), 4U);  // for each of two scenes one of the default and one of the paper's preset
   EXPECT_THAT(words(plan, "map/kitchen"), HasSubstr("/k1 "));
   EXPECT_THAT(words(plan, "map/kitchen"), HasSubstr("/k2 "));
   EXPECT_THAT(words(plan, "cloud/kitchen"), HasSubstr("--noise 0.01"));
@@ -111,20 +111,20 @@ TEST_F(BenchmarkPlan, OneMapASceneSharedByItsSequences) {
   EXPECT_THAT(job(plan, "track/k2/gaussian/1").needs, Contains("map/kitchen"));
   EXPECT_THAT(words(plan, "track/h1/paper/1"), HasSubstr("maps/hall_paper.ply"));
   EXPECT_THAT(job(plan, "track/h1/rgbd/1").needs, IsEmpty());
-  const auto prints = fingerprints(plan.jobs);  // throws where a job stands in front of what it needs
+  const auto prints = fingerprints(plan.jobs);  // throws if a job precedes one that it needs
   EXPECT_EQ(prints.size(), plan.jobs.size());
 }
 
 TEST_F(BenchmarkPlan, SplitKeepsTestedSequencesOutOfTheirMaps) {
   options.mapping = "split";
-  apps_test::write_tiny_sequence(folder / "h1", 21);  // its length is asked for
+  apps_test::write_tiny_sequence(folder / "h1", 21);  // planning reads its number of frames
   const Plan plan = make_plan(options);
   EXPECT_THAT(words(plan, "track/k1/gaussian/1"), HasSubstr("maps/kitchen_b.ply"));
   EXPECT_THAT(words(plan, "map/kitchen_b"), HasSubstr("/k2 "));
   EXPECT_THAT(words(plan, "map/kitchen_b"), Not(HasSubstr("/k1 ")));
   EXPECT_THAT(words(plan, "map/kitchen_a"), Not(HasSubstr("/k2 ")));
   EXPECT_THAT(words(plan, "cloud/kitchen_a"), Not(HasSubstr("/k2 ")));
-  // A scene of one sequence: its first half makes the map of its second.
+  // A scene with one sequence: the map is made of its first half and tested on its second.
   EXPECT_THAT(words(plan, "map/hall_b"), HasSubstr("--frames 0:10"));
   EXPECT_THAT(words(plan, "track/h1/gaussian/1"), HasSubstr("--frames 10:21"));
 }

@@ -21,8 +21,8 @@ TEST(ForeignText, KeepsWhatIsUtf8) {
 TEST(ForeignText, MarksWhatIsNot) {
   EXPECT_EQ(clean_text("caf\xe9"), "caf?");
   EXPECT_EQ(clean_text("caf\xe9!"), "caf?!");
-  EXPECT_EQ(clean_text("\xe2\x82"), "??");            // cut within a character
-  EXPECT_EQ(clean_text("\xc0\xaf"), "??");            // a slash, longer than needed
+  EXPECT_EQ(clean_text("\xe2\x82"), "??");            // truncated character
+  EXPECT_EQ(clean_text("\xc0\xaf"), "??");            // overlong encoding of a slash
   EXPECT_EQ(clean_text("\xed\xa0\x80"), "???");       // a surrogate
   EXPECT_EQ(clean_text("\xf4\x90\x80\x80"), "????");  // beyond U+10FFFF
   EXPECT_EQ(clean_text(std::string("a\0b", 3)), "a?b");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Jobs as processes: what fails takes nothing with it but what needs it, and what is settled is not run again.
+// Running jobs as processes: a failed job affects only those that need it, and settled jobs are not run again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -95,7 +95,7 @@ TEST_F(JobRunner, StopsWhatFillsItsMemory) {
   options.memory_limit = 100.0;
   Job glutton;
   glutton.id = "glutton";
-  glutton.command = {"tail", "/dev/zero"};  // keeps the last line, which never ends
+  glutton.command = {"tail", "/dev/zero"};  // reads one endless line into memory
   run({glutton, shell_job("quick", "true")}, options);
   EXPECT_THAT(fault_of(folder, "glutton"), HasSubstr("memory limit of 100 MB"));
   EXPECT_EQ(fault_of(folder, "quick"), "");
@@ -226,7 +226,8 @@ TEST_F(JobRunner, IdsThatAShellOrAPathWouldObeyAreRefused) {
 
 class JobChildren : public JobRunner {
  protected:
-  /// A script that leaves a sleeping process in a session of its own, and goes on when that has told its id.
+  /// A shell command that starts a sleeping process in its own session and continues once that has written its process
+  /// id.
   std::string leave_a_child() const {
     return "cd " + out + "; setsid sh -c 'echo $$ > pid_; mv pid_ pid; exec sleep 60' & " + "while [ ! -e " + out +
            "/pid ]; do sleep 0.01; done; ";

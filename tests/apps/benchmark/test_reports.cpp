@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// The reports of a made-up benchmark: two sequences, three methods, two runs, one crash, one tie.
+// The reports of invented benchmark results: two sequences, three methods, two runs, one crash, one tie.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ SequenceFacts sequence_of(const std::string& name) {
   return facts;
 }
 
-/// Two runs each. On icl_2 gaussian and paper print alike at 0.0021; on a<b paper crashes.
+/// Two runs each. On icl_2 gaussian and paper both print as 0.0021; on a<b paper crashes.
 BenchmarkResults two_sequences() {
   BenchmarkResults results;
   results.suite = "made up";
@@ -171,7 +171,7 @@ TEST(Reports, TexRows) {
   EXPECT_THAT(text, HasSubstr("a\\textless{}b\\textgreater{}\\&\\_c & "
                               "\\shortstack{\\textbf{0.0030}\\\\{\\tiny 0.0030..0.0030}} & $\\times$$^{1}$ & "
                               "\\shortstack{\\uline{0.0040}\\\\{\\tiny 0.0040..0.0040}}"));
-  // With the spread of several runs the three groups stand one under the other, without it side by side.
+  // With spreads of several runs the three groups are separate tables, otherwise they are side by side.
   EXPECT_THAT(text, HasSubstr("\\caption{Accuracy of localisation (the paper's Table 2): RMSE of RTE (m)."));
   EXPECT_THAT(text, HasSubstr("Sequence & gaussian & paper & interpolation \\\\\n"));
   BenchmarkResults one_run = two_sequences();
@@ -277,7 +277,7 @@ TEST(Reports, HtmlStandsAloneAndEscapes) {
   EXPECT_THAT(text, Not(HasSubstr("a<b>")));
   EXPECT_THAT(text, HasSubstr("<td class=\"first\"><b>0.0021</b><small>0.0021..<wbr>0.0022</small></td>"));
   EXPECT_THAT(text, HasSubstr("<td>x<sup>1</sup></td>"));
-  // A PNG's first six bytes in base64.
+  // The base64 text of the first bytes of a PNG.
   EXPECT_THAT(text, HasSubstr("src=\"data:image/png;base64,iVBORw0K"));
   for (const char* outside : {"http", "url(", "<script", "<link", "@import", "href"}) {
     EXPECT_THAT(text, Not(HasSubstr(outside)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// The workflow's commands go through a shell: what comes from outside is quoted there.
+// The workflow runs its commands in a shell: values from outside must be quoted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

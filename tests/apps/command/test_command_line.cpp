@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// What holds for every command and every flag, whichever there are: the commands themselves are asked.
+// Requirements for every command and every flag, tested on the list of commands that the program declares.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,10 +28,10 @@ using testing::HasSubstr;
 using testing::Not;
 using Words = std::vector<std::string>;
 
-/// Thrown when a command line was read, before the command does anything.
+/// Thrown after a command line was parsed, before the command runs.
 struct Read {};
 
-/// The program's commands, none of which does anything.
+/// The program's commands, none of which is run.
 struct Commands {
   CLI::App app;
   apps::Common common;
@@ -40,7 +40,7 @@ struct Commands {
     apps::declare_commands(app, common);
     app.parse_complete_callback([] { throw Read(); });
   }
-  /// Of every command that does something: {"eval"}, {"view", "map"}.
+  /// The paths of all commands that can be run: {"eval"}, {"view", "map"}.
   std::vector<Words> paths() {
     std::vector<Words> found;
     const std::function<void(CLI::App*, const Words&)> collect = [&](CLI::App* command, const Words& path) {
@@ -64,7 +64,7 @@ struct Commands {
 
 void read(Commands& commands, const Words& words) { EXPECT_THROW(apps::parse_command_line(commands.app, words), Read); }
 
-/// The message of the InputError that parsing gives; empty: none.
+/// The message of the InputError from parsing; empty: none.
 std::string fault_of(const Words& words) {
   Commands commands;
   try {
@@ -86,7 +86,7 @@ Words operator+(Words words, const Words& more) {
 
 std::string long_name(const CLI::Option& option) { return option.get_lnames().empty() ? "" : option.get_lnames()[0]; }
 
-/// Words for the arguments that a command cannot do without.
+/// A word for each required argument of a command.
 Words needed_arguments(CLI::App& command) {
   Words words;
   for (const CLI::Option* option : command.get_options()) {
@@ -95,7 +95,7 @@ Words needed_arguments(CLI::App& command) {
   return words;
 }
 
-/// The same for its flags.
+/// A word for each required flag of a command.
 Words needed_flags(CLI::App& command) {
   Words words;
   for (const CLI::Option* option : command.get_options()) {
@@ -391,7 +391,7 @@ TEST(Misspelt, CommandsAndFlagsAreNamedWithTheNearest) {
   EXPECT_THAT(fault_of({"xyzzy"}), AllOf(HasSubstr("no such command xyzzy"), Not(HasSubstr("did you mean"))));
   EXPECT_THAT(fault_of({}), HasSubstr("a command is needed"));
   EXPECT_THAT(fault_of({"view"}), HasSubstr("view: a command is needed"));
-  // The misspelt flag is the cause, the missing one follows from it.
+  // The misspelt flag is reported, not the missing one, which follows from it.
   EXPECT_THAT(fault_of({"train", "seq", "--clod", "c.ply", "--out", "m.ply"}),
               AllOf(HasSubstr("train: no such flag --clod"), HasSubstr("did you mean --cloud?")));
   EXPECT_THAT(fault_of({"eval", "a", "--truth", "b", "--jsno=c"}), HasSubstr("did you mean --json?"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// What a signal does to a command, whether the command asks for it or not.
+// Effects of signals on commands that check for interrupts and on those that do not.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -24,7 +24,7 @@ namespace {
 
 class Signals : public testing::Test {
  protected:
-  // A thread of its own watches for signals: the tests' processes must not be forked in the midst.
+  // catch_interrupts() starts a thread: the death tests must not fork while it runs.
   void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// What reaches the terminal, and what happens where it, the device's cache or memory fail.
+// Output to the terminal, and failures of standard output, of the program cache and of memory.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,14 +22,14 @@ using testing::HasSubstr;
 using testing::Not;
 using Words = std::vector<std::string>;
 
-/// Runs the program by a line of shell in which "$@" is its command line.
+/// Runs a line of shell in which "$@" stands for the program with these words.
 RunResult run_by_shell(const std::string& line, const Words& words) {
   Words all{"-c", line, "sh", test::program()};
   all.insert(all.end(), words.begin(), words.end());
   return run_program("/bin/sh", all);
 }
 
-/// Control characters but for line ends: what a terminal would obey.
+/// Number of control characters other than line ends.
 long commands_in(const std::string& text) {
   return std::count_if(text.begin(), text.end(), [](char c) {
     const auto byte = static_cast<unsigned char>(c);
@@ -92,7 +92,7 @@ TEST_F(Terminal, OutputThatIsNotTakenIsAnError) {
     const RunResult result = run_by_shell("exec \"$@\" > /dev/full", words);
     SCOPED_TRACE(testing::PrintToString(words));
     EXPECT_EQ(result.status, 2);
-    // What std::endl wrote has lost its reason by the end.
+    // For output by std::endl the reason is no longer known at the end.
     EXPECT_THAT(result.err, testing::MatchesRegex("odosplat: standard output: cannot be written: "
                                                   "(No space left on device|an earlier line failed)\n"));
   }

@@ -25,13 +25,13 @@ using testing::Not;
 
 const Camera camera{200, 150, 150.0, 152.0, 99.0, 75.5};
 
-// Images of a room by a camera that adjusts its exposure, its poses, and a cloud of what they see.
+// Images of a room by a camera with auto exposure, its poses, and a cloud of the room.
 struct World {
   CloudCheckInput input;
   std::vector<GrayImage> images;
 };
 
-// Fewer pairs and patches than usual: the room is small and everything in it textured.
+// Fewer pairs and patches than the defaults: the room is small and textured everywhere.
 CloudCheckReport check(const CloudCheckInput& input) {
   CloudCheckOptions options;
   options.pairs = 10;
@@ -128,7 +128,7 @@ TEST(CheckCloud, FindsAFlippedFy) {
 }
 
 TEST(CheckCloud, FindsACloudThatIsNotReflectedWithItsPoses) {
-  // Poses of a camera whose y points up, declared so; the cloud in the same world.
+  // Poses of a camera whose y points up, with fy declared negative; the cloud is in the same world.
   CloudCheckInput input = room();
   const Eigen::Matrix4d F = Eigen::Vector4d(1, -1, 1, 1).asDiagonal();
   for (auto& pose : input.T_world_camera) *pose = SE3::from_matrix(F * pose->matrix() * F);
@@ -144,7 +144,7 @@ TEST(CheckCloud, FindsShiftedIds) {
     CloudCheckInput input = room();
     const int n = static_cast<int>(input.T_world_camera.size());
     for (int i = 0; i < n; ++i) {
-      // What belongs to image i stands at i + shift.
+      // The pose of image i is stored at i + shift.
       const int from = i - shift;
       input.T_world_camera[static_cast<std::size_t>(i)] =
           from >= 0 && from < n ? room().T_world_camera[static_cast<std::size_t>(from)] : std::nullopt;
@@ -168,7 +168,7 @@ TEST(CheckCloud, MeasuresTheScaleOfTheCloud) {
 }
 
 TEST(CheckCloud, MeasuresTheOffsetOfTheCloud) {
-  const Eigen::Vector3d offset(0.10, -0.08, 0.0775);  // 15 cm
+  const Eigen::Vector3d offset(0.10, -0.08, 0.0775);  // length 15 cm
   CloudCheckInput input = room();
   for (Eigen::Vector3f& p : input.cloud.points) p += offset.cast<float>();
   const CloudCheckReport r = check(input);
@@ -235,7 +235,7 @@ TEST(CheckCloud, NamesTheUnitOfTheCloud) {
   }
 }
 
-// Another room, and the room itself turned about the vertical: whatever is fitted, no cause is named.
+// A deformed room, and the room turned about the vertical: the cloud is not accepted, but no single cause is named.
 TEST(CheckCloud, NamesNoCauseForACloudThatDoesNotFit) {
   CloudCheckInput other = room();
   for (Eigen::Vector3f& p : other.cloud.points) {

@@ -46,14 +46,14 @@ TEST(CameraCheck, NumbersThatNoLensHasAreNamed) {
   EXPECT_EQ(fault("gamma", "1e-9"), "c: gamma: must be in 0.1..10, is 1e-09");
   EXPECT_EQ(fault("fps", "1e300"), "c: fps: must be in 1e-06..1e+06, is 1e+300");
   EXPECT_EQ(fault("depth_scale", "1e-300"), "c: depth_scale: must be in 0.001..1e+09, is 1e-300");
-  // Cut out of a larger image; a telescope; the widest of lenses.
+  // Unusual but valid: an image cut out of a larger one, a telescope, an extremely wide lens.
   for (const auto& [key, value] : {std::pair{"cx", "-900"}, {"fx", "50000"}, {"fx", "2"}}) {
     EXPECT_NO_THROW(parse_camera_file("c", with(key, value))) << key;
   }
 }
 
 TEST(CameraCheck, ALensThatFoldsWithinTheImageIsRefused) {
-  // r (1 - 5 r^2) turns back at r = 0.258, where it is 0.172: 41 px.
+  // r (1 - 5 r^2) has its maximum of 0.172 at r = 0.258, which is 41 px.
   EXPECT_THAT(fault("distortion", "[-5, 0, 0, 0, 0]"),
               StartsWith("c: distortion: [-5, 0, 0, 0, 0] folds within the image: about 38 px from cx, cy"));
   const Camera camera{320, 240, 240.0, 240.0, 159.5, 119.5};
@@ -62,11 +62,11 @@ TEST(CameraCheck, ALensThatFoldsWithinTheImageIsRefused) {
                               "[1e300, 0, 0, 0]", "[0, 0, 0, 0, -1e300]"}) {
     EXPECT_THAT(fault("distortion", folding), HasSubstr("folds within the image")) << folding;
   }
-  // Beyond the fold the radius grows again, which does not help the rays in between.
+  // Beyond the fold the radius grows again, but the rays in between are still ambiguous.
   EXPECT_THAT(fault("distortion", "[-6, 9, 0, 0, 6]"), HasSubstr("folds within the image"));
 }
 
-// Published calibrations, of cameras whose images their lens model covers.
+// Published calibrations: these lens models do not fold within the image.
 TEST(CameraCheck, LensesOfDataSetsPass) {
   const double none = std::numeric_limits<double>::infinity();
   EXPECT_EQ(fold_radius({640, 480, 517.3, 516.5, 318.6, 255.3}, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}), none);
@@ -89,7 +89,7 @@ TEST(CameraCheck, AFoldInTheCornersAlonePasses) {
                                     "distortion: [-0.2, 0, 0, 0]\n"));
 }
 
-// The fold stands where a grid of rays says that the distorted radius is largest.
+// The fold is where the distorted radius, computed in small steps, has its maximum.
 TEST(CameraCheck, FoldsWhereTheRadiusTurnsBack) {
   const Camera camera{640, 480, 400.0, 400.0, 319.5, 239.5};
   for (const double k1 : {-0.5, -0.8, -2.0}) {
@@ -98,7 +98,7 @@ TEST(CameraCheck, FoldsWhereTheRadiusTurnsBack) {
       largest = std::max(largest, r * (1.0 + k1 * r * r));
       if (1.0 + 3.0 * k1 * r * r < 0.0) break;
     }
-    // A line of the search has 64 steps.
+    // tolerance: the search takes 64 steps along a line
     EXPECT_NEAR(fold_radius(camera, {k1, 0.0, 0.0, 0.0}), 400.0 * largest, 400.0 / 64.0 + 1.0) << k1;
   }
 }

@@ -29,13 +29,13 @@ constexpr int width = 40;
 constexpr int height = 30;
 const std::string camera_yaml = "width: 40\nheight: 30\nfx: 40\nfy: 40\ncx: 19.5\ncy: 14.5\n";
 
-// Radiance, channels apart; 0.03 to 0.43, which twice the exposure does not saturate.
+// Radiance, different in each channel; values from 0.03 to 0.43 do not saturate at twice the exposure.
 cv::Vec3f radiance(int x, int y) {
   const float v = 0.03F + 0.4F * static_cast<float>(x * y % 37) / 37.0F;
   return {v, 0.7F * v + 0.02F, 0.02F + 0.3F * v};
 }
 
-// Brightness falls to a half in the corners.
+// Brightness decreases to one half in the corners.
 cv::Mat1f vignette() {
   cv::Mat1f v(height, width);
   for (int y = 0; y < height; ++y) {
@@ -47,7 +47,7 @@ cv::Mat1f vignette() {
   return v;
 }
 
-// What a camera stores.
+// The image that a camera stores for this response, vignette and exposure.
 ColorImage stored(double gamma, const cv::Mat1f& v, double exposure) {
   ColorImage image(height, width);
   for (int y = 0; y < height; ++y) {
@@ -63,8 +63,8 @@ ColorImage stored(double gamma, const cv::Mat1f& v, double exposure) {
 
 bool same_pixels(const ColorImage& a, const ColorImage& b) { return cv::norm(a, b, cv::NORM_INF) == 0.0; }
 
-// Three frames at 1, 2 and 3 s with exposures 4, 2 and 8 (median 4), as 8-bit files; expects that what is read is what
-// exposure 1 without vignette would have given, to a grey level or two.
+// Three frames at 1, 2 and 3 s with exposures 4, 2 and 8 (median 4), as 8-bit files. Corrected images should equal
+// those of exposure 1 without vignette to one or two grey levels.
 void put_darkened(const TempFolder& temp, double gamma, bool vignetted) {
   std::string list;
   std::string truth;
@@ -79,7 +79,7 @@ void put_darkened(const TempFolder& temp, double gamma, bool vignetted) {
   temp.put("groundtruth.txt", truth);
   if (vignetted) {
     cv::Mat1w file;
-    vignette().convertTo(file, CV_16U, 50000.0);  // the largest value counts as 1
+    vignette().convertTo(file, CV_16U, 50000.0);  // the largest value corresponds to 1
     write_png16(temp / "vignette.png", file);
   }
   temp.put("camera.yaml",
@@ -110,8 +110,8 @@ TEST(Photometric, LeavesSaturatedAndBlackAndDoesNotExceedWhite) {
   EXPECT_EQ(corrected(0, 0), image(0, 0));
   EXPECT_EQ(corrected(0, 1), cv::Vec3f(0.6F, 1.0F, 1.0F));
   EXPECT_EQ(corrected(0, 2), cv::Vec3f(0.0F, 0.998F, 1.0F));
-  EXPECT_EQ(corrected(0, 3), cv::Vec3f(0.0F, 0.0F, 0.0F));  // there the lens sees nothing
-  // Too long an exposure: what is saturated stays white.
+  EXPECT_EQ(corrected(0, 3), cv::Vec3f(0.0F, 0.0F, 0.0F));  // no light reaches this pixel
+  // With a longer exposure, saturated values stay white.
   EXPECT_EQ(PhotometricCorrection().apply(image, 2.0)(0, 1), cv::Vec3f(0.15F, 0.4F, 1.0F));
 }
 
@@ -161,7 +161,7 @@ TEST(Photometric, MovedSequencesKeepTheirCalibration) {
   write_moved_sequence(temp / "moved", s, Similarity());
   const Sequence moved = Sequence::open(temp / "moved");
   for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(largest_difference(moved.color(i), s.color(i)), 1e-5) << i;
-  // A later run without exposures leaves none behind.
+  // A later run without exposures removes the file.
   std::filesystem::remove(temp / "exposures.txt");
   write_moved_sequence(temp / "moved", Sequence::open(temp.path()), Similarity());
   EXPECT_FALSE(std::filesystem::exists(temp / "moved/exposures.txt"));
@@ -204,7 +204,7 @@ TEST(Photometric, TimesOfDsoGoInOrder) {
   EXPECT_THAT(parse_dso_times("t", "00000 1400000.1 10\n00001 1400000.2 20\n00002 1400000.3 5\n", 3),
               ElementsAre(1.0, 2.0, 0.5));
   EXPECT_THAT(parse_dso_times("t", "image_a 1.0 3\n", 1), ElementsAre(1.0));
-  // Times of other data sets.
+  // Files of times with other formats.
   for (const char* text : {"", "0.1\n0.2\n", "0 0.1\n1 0.2\n", "1 2 3 4\n", "1.0 rgb/1.png more\n"}) {
     EXPECT_TRUE(parse_dso_times("t", text, 2).empty()) << text;
   }

@@ -12,14 +12,14 @@
 
 namespace odosplat::test {
 
-/// A point as the files of these tests hold it: colour over 255.
+/// A point of a test file; colours are in 0..255.
 struct FilePoint {
   std::array<double, 3> position;
   std::array<int, 3> color;
   std::array<float, 3> normal;
 };
 
-/// Bytes of values, least significant first.
+/// Bytes of values, least significant byte first.
 template <typename... T>
 std::string little(T... values) {
   std::string bytes;
@@ -27,7 +27,8 @@ std::string little(T... values) {
   return bytes;
 }
 
-/// LZF of any bytes, with references where the last 3 bytes came before: short, long and overlapping ones.
+/// LZF compression of any bytes, with references wherever at least 3 bytes occurred before: short, long and overlapping
+/// ones.
 inline std::string lzf_compress(const std::string& bytes) {
   std::string packed;
   std::string literal;
@@ -65,17 +66,17 @@ inline std::string lzf_compress(const std::string& bytes) {
   return packed;
 }
 
-/// What a LAS file shall be; the header's counts follow from `points` unless said otherwise.
+/// Content of a LAS file; the header's counts follow from `points` unless stated otherwise.
 struct LasFile {
   int minor = 2;
   int format = 3;
-  std::size_t extra = 0;  // bytes behind each record
+  std::size_t extra = 0;  // bytes after each record
   std::array<double, 3> scale{0.001, 0.001, 0.001};
   std::array<double, 3> offset{100.0, 200.0, 0.0};
   int color_factor = 257;  // 257: 16-bit colours, 1: 8-bit ones
   std::vector<FilePoint> points;
-  std::uint64_t promised = UINT64_MAX;  // UINT64_MAX: the truth
-  std::size_t withheld = SIZE_MAX;      // number of a point that is marked so
+  std::uint64_t promised = UINT64_MAX;  // count in the header; UINT64_MAX: the true one
+  std::size_t withheld = SIZE_MAX;      // index of a point that is marked as withheld
 
   std::string bytes() const {
     static constexpr std::array<std::array<std::size_t, 2>, 11> formats{
@@ -88,7 +89,7 @@ struct LasFile {
     put(0, "LASF");
     put(24, {1, static_cast<char>(minor)});
     put(94, little(static_cast<std::uint16_t>(header_size)));
-    put(96, little(static_cast<std::uint32_t>(header_size + 10)));  // a gap, as of a VLR
+    put(96, little(static_cast<std::uint32_t>(header_size + 10)));  // a gap after the header, as for a VLR
     put(104, {static_cast<char>(format)});
     put(105, little(static_cast<std::uint16_t>(length + extra)));
     if (minor < 4 || format < 6) put(107, little(static_cast<std::uint32_t>(count)));
@@ -113,7 +114,7 @@ struct LasFile {
   }
 };
 
-/// Header of a PCD file of these fields, one line each word of fields "x y z".
+/// Header of a PCD file with these fields; each argument is the rest of one line, such as fields "x y z".
 inline std::string pcd_header(const std::string& fields, const std::string& size, const std::string& type,
                               const std::string& count, std::size_t points, const std::string& data) {
   return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS " + fields + "\nSIZE " + size + "\nTYPE " +
@@ -121,7 +122,8 @@ inline std::string pcd_header(const std::string& fields, const std::string& size
          "POINTS " + std::to_string(points) + "\nDATA " + data + "\n";
 }
 
-/// Behind the header of a compressed PCD file: sizes and LZF of `columns`, the fields' values field after field.
+/// Data of a compressed PCD file: sizes and LZF of `columns`, which has all values of the first field, then of the
+/// next.
 inline std::string pcd_compressed(const std::string& columns) {
   const std::string packed = lzf_compress(columns);
   return little(static_cast<std::uint32_t>(packed.size()), static_cast<std::uint32_t>(columns.size())) + packed;

@@ -13,18 +13,18 @@
 
 namespace odosplat::test {
 
-/// The points that most of these files hold.
+/// The points of most test files.
 inline const std::vector<FilePoint> points{{{101.5, 199.25, -3.125}, {255, 0, 51}, {0, 0, -1}},
                                            {{102.0, 198.0, 7.0}, {1, 2, 3}, {0.6F, 0.8F, 0}},
                                            {{99.0, 205.5, 0.0}, {128, 128, 128}, {1, 0, 0}}};
 
-/// What a cloud shall have besides positions.
+/// Parts that a cloud must have besides positions.
 struct Parts {
   bool colors = true;
   bool normals = true;
 };
 
-/// Holds a cloud read from a file of `points` against them.
+/// Checks a cloud read from a file of `points`.
 inline void expect_points(const PointCloud& cloud, Parts parts) {
   ASSERT_EQ(cloud.size(), points.size());
   EXPECT_EQ(cloud.has_colors(), parts.colors);
@@ -43,7 +43,7 @@ inline void expect_points(const PointCloud& cloud, Parts parts) {
   }
 }
 
-/// Message of the InputError that these bytes end with.
+/// Message of the InputError for these bytes.
 inline std::string fault(const std::string& name, const std::string& bytes) {
   return error_of([&] { parse_point_cloud(name, bytes); });
 }

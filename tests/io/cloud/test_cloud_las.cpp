@@ -28,7 +28,7 @@ TEST(CloudLas, OfEveryVersionAndFormat) {
       las.format = format;
       las.points = points;
       las.extra = static_cast<std::size_t>(format % 3);
-      if (format >= 6 && minor < 4) continue;  // formats 6 and up came with 1.4
+      if (format >= 6 && minor < 4) continue;  // formats 6 and up exist since version 1.4
       const bool colors = format == 2 || format == 3 || format == 5 || format == 7 || format == 8 || format == 10;
       expect_points(parse_point_cloud("c.las", las.bytes()), {colors, false});
     }
@@ -95,7 +95,7 @@ TEST(CloudLas, FarCloudsAreRefusedAndReadInDoublePrecision) {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   scan_cloud_bytes("c.las", las.bytes(), [&](const CloudBatch& batch) { point = batch.points.at(0); });
   EXPECT_NEAR((point - Eigen::Vector3d(500000.125, 5400000.377, 2.0)).norm(), 0.0, 1e-8);
-  // Far, but what the file says is kept: no reason to refuse.
+  // Far from the origin, but exactly representable: not refused.
   EXPECT_EQ(parse_point_cloud("c.xyz", "5400000 0 0\n").points.at(0).x(), 5400000.0F);
 }
 

@@ -26,7 +26,7 @@ std::string ascii_pcd() {
          "101.5 199.25 -3.125 16711731 0 0 -2\n102 198 7 66051 0.6 0.8 0\n\n99 205.5 0 8421504 1 0 0\n";
 }
 
-// x z of float, a field of 3 bytes, y of double, the packed colour, padding of 2 shorts, the normal.
+// x and z as float, a field of 3 bytes, y as double, the packed colour, padding of 2 shorts, the normal.
 const char* const mixed_fields = "x z id y rgba _ normal_x normal_y normal_z";
 std::vector<std::string> mixed_columns(const FilePoint& p) {
   const auto rgba =
@@ -68,11 +68,11 @@ TEST(CloudPcd, OfEveryEncoding) {
   expect_points(parse_point_cloud("c.pcd", ascii_pcd()), {});
   expect_points(parse_point_cloud("c.pcd", binary_pcd()), {});
   expect_points(parse_point_cloud("c.pcd", compressed_pcd()), {});
-  // The first bytes tell, whatever the file is called.
+  // The format is recognised by the first bytes, not by the name.
   expect_points(parse_point_cloud("c.dat", binary_pcd()), {});
 }
 
-// Written by the public LZF library (liblzf through python-lzf), not by the compressor of these tests.
+// Data compressed by the public LZF library (liblzf through python-lzf), not by the compressor of these tests.
 TEST(CloudPcd, CompressedByOthersIsRead) {
   const std::string corpus = test::source_dir() + "/tests/fuzz/corpus/pcd/";
   const PointCloud plain = read_point_cloud(corpus + "binary.pcd");
@@ -99,7 +99,7 @@ TEST(CloudPcd, ColoursOfEveryKind) {
   EXPECT_LT((color("r g b", "4 4 4", "F F F", "65535 0 13107") - expected).norm(), 1e-6F);
   EXPECT_LT((color("r g b", "4 4 4", "F F F", "1 0 0.2") - expected).norm(), 1e-6F);
   EXPECT_LT((color("red green blue", "4 4 4", "F F F", "255 0 51") - expected).norm(), 1e-6F);
-  // Packed into the bits of a float, printed as one: 0x00ff0033 is near the smallest normal number.
+  // A colour packed into the bits of a float and printed as a number: 0x00ff0033 is near the smallest normal number.
   const std::string header = test::pcd_header("x y z rgb", "4 4 4 4", "F F F F", "1 1 1 1", 1, "ascii");
   EXPECT_LT((parse_point_cloud("c.pcd", header + "1 2 3 2.3418123e-38\n").colors.at(0) - expected).norm(), 1e-6F);
   EXPECT_EQ(parse_point_cloud("c.pcd", header + "1 2 3 nan\n").colors.at(0), Vector3f::Zero());
@@ -150,7 +150,7 @@ TEST(CloudPcd, FaultsAreNamed) {
   EXPECT_EQ(header("POINTS", "many"), "c.pcd: line 10: `many` is not a whole number");
   EXPECT_EQ(header("POINTS", "7"), "c.pcd: header: POINTS is 7, WIDTH times HEIGHT is 3");
   EXPECT_EQ(header("HEIGHT", "18446744073709551615"), "c.pcd: header: WIDTH is out of range");
-  // 2^63 times 2 is 0 in 64 bits.
+  // 2^63 times 2 overflows to 0 in 64 bits.
   EXPECT_EQ(fault("c.pcd", "VERSION .7\nFIELDS x y z\nWIDTH 9223372036854775808\nHEIGHT 2\nPOINTS 0\nDATA ascii\n"),
             "c.pcd: header: WIDTH is out of range");
   EXPECT_EQ(header("VIEWPOINT", "1\nPOINTS 3"), "c.pcd: line 11: POINTS comes twice");
@@ -175,7 +175,7 @@ TEST(CloudPcd, PromisesAreNotTrusted) {
   EXPECT_EQ(fault("c.pcd", promising(ascii_pcd(), "7")), "c.pcd: the header promises 7 points, the file holds 3");
   EXPECT_THAT(fault("c.pcd", promising(compressed_pcd(), "4")),
               HasSubstr("the header promises 4 points, the file holds 3"));
-  // Sizes that the data do not bear out.
+  // Sizes that do not match the data.
   const std::string compressed = compressed_pcd();
   const std::size_t sizes = compressed.find("binary_compressed\n") + 18;
   std::string lying = compressed;
@@ -183,7 +183,7 @@ TEST(CloudPcd, PromisesAreNotTrusted) {
   lying = promising(compressed, "90000000");
   lying.replace(lying.find("binary_compressed\n") + 22, 4, little(std::uint32_t{0xffffffff}));
   EXPECT_EQ(fault("c.pcd", lying), "c.pcd: the compressed data are broken or cut off");
-  // A reference to what was before the start.
+  // A reference to a position before the start.
   std::string before = compressed;
   EXPECT_EQ(fault("c.pcd", before.replace(sizes + 8, 2, "\x3f\xff")),
             "c.pcd: the compressed data are broken or cut off");
@@ -192,9 +192,9 @@ TEST(CloudPcd, PromisesAreNotTrusted) {
 TEST(CloudPcd, CompressedOfManyBatchesEqualsBinary) {
   std::string rows;
   std::array<std::string, 3> columns;
-  const std::size_t n = 70000;  // more than a batch
+  const std::size_t n = 70000;  // more than one batch
   for (std::size_t i = 0; i < n; ++i) {
-    // Runs, steps and a far echo: literals, short, long and farthest references.
+    // Long runs, short steps and a distant repetition, which give literals, short, long and the farthest references.
     const float values[3] = {static_cast<float>(i / 500), static_cast<float>(i % 7), static_cast<float>(i % 2048)};
     for (std::size_t a = 0; a < 3; ++a) {
       rows += little(values[a]);
@@ -204,7 +204,7 @@ TEST(CloudPcd, CompressedOfManyBatchesEqualsBinary) {
   const auto header = [n](const std::string& data) {
     return test::pcd_header("x y z", "4 4 4", "F F F", "1 1 1", n, data);
   };
-  // Every column alone, as references over a column's end are as good: all at once is slow in this compressor.
+  // Each column is compressed separately, which is also valid: this compressor would be slow on all at once.
   std::string packed;
   for (const std::string& column : columns) packed += test::lzf_compress(column);
   const std::string compressed = header("binary_compressed") +
@@ -218,7 +218,8 @@ TEST(CloudPcd, CompressedOfManyBatchesEqualsBinary) {
 }
 
 TEST(CloudPcd, EveryCutOfPcdIsRefused) {
-  // The last bytes of the text are blanks and digits, and of the compressed columns nothing that is wanted.
+  // The last bytes of the text are blanks and digits, and those of the compressed columns belong to a field that is not
+  // read.
   for (const std::string& bytes : {ascii_pcd(), binary_pcd(), compressed_pcd()}) {
     for (std::size_t n = 0; n + 7 < bytes.size(); ++n) {
       SCOPED_TRACE("cut at " + std::to_string(n));

@@ -20,7 +20,7 @@ using test::little;
 using test::TempFolder;
 using testing::HasSubstr;
 
-// An element with a list before the vertices, doubles, a property between, a list in the vertices; several batches.
+// An element with a list before the vertices, doubles, an unused property, a list in the vertices; several batches.
 TEST(CloudScan, PlyOfEveryEncoding) {
   const std::size_t n = 66000;
   const auto header = [&](const std::string& format, bool with_list) {

@@ -47,7 +47,7 @@ TEST(CloudText, NamesMayStandInAnyOrder) {
 }
 
 TEST(CloudText, ColoursAreOver255IfAnyIsAboveOne) {
-  // The one that tells may come late, behind the first batch.
+  // The value above 1 may come late, after the first batch.
   std::string text;
   for (int i = 0; i < 70000; ++i) text += "1 2 3 1 0 0\n";
   EXPECT_EQ(read("x y z r g b\n" + text).colors.at(0), Vector3f(1, 0, 0));
@@ -63,7 +63,7 @@ TEST(CloudText, NamedColoursAre16BitsIfAnyIsAbove255) {
   EXPECT_NEAR(cloud.colors.at(1).x(), 200.0F / 65535.0F, 1e-7F);
 }
 
-// Rounded sums of weights: 0..1 all the same.
+// Values of 0..1 that exceed 1 by rounding.
 TEST(CloudText, ColoursOfUnitRangeMayOvershootALittle) {
   EXPECT_EQ(read("x y z r g b\n1 2 3 1.0002 0.5 0\n").colors.at(0), Vector3f(1.0F, 0.5F, 0.0F));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Files that hold more rows than their headers promise.
+// Files with more rows than their headers state.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using test::fault;
 using test::little;
 using testing::HasSubstr;
 
-/// What is said about a cloud while it is read; its number of points goes to `n`.
+/// The warnings printed while a cloud is read; its number of points is stored in `n`.
 std::string warning_of(const std::string& name, const std::string& bytes, std::size_t& n) {
   testing::internal::CaptureStderr();
   n = parse_point_cloud(name, bytes).size();
@@ -62,7 +62,7 @@ TEST(LeftOver, PlySaysWhatItsHeaderLeavesOut) {
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("p.ply: " + rest + "30 bytes"));
 }
 
-// A mesh is a cloud with elements behind the points.
+// A mesh is a cloud with further elements after the points.
 TEST(LeftOver, FurtherElementsAreNone) {
   const std::string faces = "element face 2\nproperty list uchar int vertex_indices\n";
   const std::string face = little(std::uint8_t{3}, std::int32_t{0}, std::int32_t{1}, std::int32_t{2});
@@ -92,7 +92,7 @@ TEST(LeftOver, LasSaysWhatItsHeaderLeavesOut) {
   expect_warning("c.las", las.bytes(), 3, "");
   las.promised = 1;
   expect_warning("c.las", las.bytes(), 1, "the header promises 1 points, the file goes on for 2 more");
-  // What stands behind the points by the header's own word.
+  // Data after the points that the header declares.
   las.minor = 4;
   las.promised = UINT64_MAX;
   std::string bytes = las.bytes();

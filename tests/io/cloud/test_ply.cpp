@@ -205,7 +205,7 @@ TEST(Ply, TruncatedAsciiAndListsAreErrorsAtEveryLength) {
   }
 }
 
-// Memory is taken only for what the file can hold: these would need exabytes.
+// Memory is allocated only for what the file can contain: these headers state exabytes.
 TEST(Ply, OverPromisingHeadersTakeNoMemory) {
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     for (const char* properties : {"property double x\n", "property list uint double l\n"}) {

@@ -15,7 +15,7 @@ inline std::string encoded(const std::string& extension, const cv::Mat& image, c
   return {bytes.begin(), bytes.end()};
 }
 
-/// CRC-32 as PNG has it, bit by bit.
+/// CRC-32 as defined for PNG, computed bit by bit.
 inline std::uint32_t png_checksum(const std::string& bytes) {
   std::uint32_t c = 0xFFFFFFFFU;
   for (const char byte : bytes) {
@@ -31,7 +31,7 @@ inline void put_big_endian(std::string& bytes, std::size_t at, std::uint32_t val
   }
 }
 
-/// The PNG with another size in its header and a checksum to match; the pixels stay what they are.
+/// The PNG with another size in its header and a matching checksum; the pixels are unchanged.
 inline std::string png_claiming(std::string png, int width, int height) {
   put_big_endian(png, 16, static_cast<std::uint32_t>(width), 4);
   put_big_endian(png, 20, static_cast<std::uint32_t>(height), 4);

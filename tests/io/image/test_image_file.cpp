@@ -108,7 +108,7 @@ TEST(ImageFile, DepthMustBeSixteenBitGrey) {
   }
 }
 
-// OpenCV decodes truncated files to images that are grey or black from some row on.
+// OpenCV decodes truncated files to images that are grey or black below some row.
 TEST(ImageFile, TruncatedPngIsAnErrorAtEveryLength) {
   const std::string bytes = encoded(".png", noise_image(20, 15));
   ASSERT_EQ(parse_color("i.png", bytes).size(), cv::Size(20, 15));
@@ -128,7 +128,7 @@ TEST(ImageFile, TruncatedJpegIsAnErrorAtEveryLength) {
       EXPECT_THAT(error_of([&] { parse_color("i.jpg", bytes.substr(0, length)); }), testing::StartsWith("i.jpg: is "))
           << length;
     }
-    // What interrupted downloads leave.
+    // Zeros at the end, as after an interrupted download.
     std::string padded = bytes;
     std::fill(padded.begin() + static_cast<std::ptrdiff_t>(padded.size() / 2), padded.end(), '\0');
     EXPECT_THROW(parse_color("i.jpg", padded), InputError);
@@ -172,7 +172,7 @@ TEST(ImageFile, OtherContentIsNamed) {
   EXPECT_EQ(error_of([&] { read_color(temp.put("b.png", encoded(".bmp", noise_image(3, 3)))); }),
             temp / "b.png" + ": is neither PNG nor JPEG");
   EXPECT_EQ(error_of([&] { read_color(temp / "none.png"); }), temp / "none.png" + ": is missing");
-  // The content counts, not the name.
+  // The format is recognised by the content, not by the name.
   EXPECT_EQ(read_color(temp.put("j.png", encoded(".jpg", noise_image(9, 8)))).size(), cv::Size(9, 8));
 }
 
@@ -193,7 +193,7 @@ std::string png_chunk(const std::string& type, const std::string& data) {
 TEST(ImageFile, DecodersSayNothingThemselves) {
   const std::string bytes = encoded(".png", noise_image(8, 8));
   testing::internal::CaptureStderr();
-  // A colour profile of rubbish, which libpng would warn of.
+  // An invalid colour profile, about which libpng would print a warning.
   std::string with_profile = bytes;
   with_profile.insert(33, png_chunk("iCCP", std::string("rubbish\0\0no profile", 19)));
   EXPECT_EQ(parse_color("i", with_profile).size(), cv::Size(8, 8));
@@ -214,7 +214,7 @@ TEST(ImageFile, UnwritablePlacesAndEmptyImagesLeaveNothing) {
   EXPECT_THAT(temp.files(), ElementsAre("file"));
 }
 
-// The pixels belong to another size: decoding them would say "is damaged".
+// The pixels do not match the size in the header: decoding them would report "is damaged".
 TEST(ImageFile, SizesAreJudgedByTheHeaderAlone) {
   const std::string png = encoded(".png", noise_image(20, 15));
   const std::string depth = encoded(".png", cv::Mat1w(15, 20, std::uint16_t{7}));
@@ -262,7 +262,7 @@ TEST(ImageFile, AJpegHasOneHeaderAndFewScans) {
 TEST(ImageFile, AFileLargerThanItsPixelsCanBeIsNotReadIntoMemory) {
   const TempFolder temp;
   const std::string file = temp.put("i.png", encoded(".png", noise_image(3, 3)));
-  std::filesystem::resize_file(file, std::uintmax_t{65} << 20U);  // a hole: no space on the disk
+  std::filesystem::resize_file(file, std::uintmax_t{65} << 20U);  // a sparse file: uses no space on the disk
   EXPECT_EQ(error_of([&] {
               read_color(file, {9, {}});
             }),

@@ -36,7 +36,7 @@ class PictureFile : public testing::Test {
   cv::Mat3b picture_ = cv::Mat3b(24, 37);
 };
 
-/// The number behind a word of a file.
+/// The number after a word of a file.
 std::size_t number_behind(const std::string& text, const std::string& word) {
   const std::size_t at = text.find(word);
   EXPECT_NE(at, std::string::npos) << word;
@@ -91,7 +91,7 @@ TEST_F(PictureFile, PngAndJpegHoldThePicture) {
 TEST_F(PictureFile, PdfHoldsThePixelsAndItsTableIsRight) {
   const std::string pdf = written("a.pdf");
   EXPECT_THAT(pdf, HasSubstr("/MediaBox [0 0 27.75 18.00]"));
-  // The table of objects: each line is where an object begins.
+  // The table of objects: each line is the position of an object.
   const std::size_t table = number_behind(pdf, "startxref\n");
   ASSERT_EQ(pdf.compare(table, 9, "xref\n0 6\n"), 0);
   for (std::size_t object = 1; object <= 5; ++object) {
@@ -99,7 +99,7 @@ TEST_F(PictureFile, PdfHoldsThePixelsAndItsTableIsRight) {
     const std::string head = std::to_string(object) + " 0 obj\n";
     EXPECT_EQ(pdf.compare(start, head.size(), head), 0) << object;
   }
-  // Its stream is a PNG's: the same rows with the same predictors, which the parameters name.
+  // Its stream is that of a PNG: the same rows and predictors, as stated by the parameters.
   EXPECT_THAT(pdf, HasSubstr("/Predictor 15 /Colors 3 /BitsPerComponent 8 /Columns 37"));
   const std::size_t image = pdf.find("/Subtype /Image");
   ASSERT_NE(image, std::string::npos);

@@ -13,12 +13,12 @@
 
 namespace odosplat::test {
 
-/// A COLMAP model as COLMAP itself writes it, for tests: what the readers are held against. Written from the format's
-/// description, apart from the readers.
+/// Writes a COLMAP model as COLMAP does, to test the readers. Implemented from the format's description, independently
+/// of the readers.
 struct ColmapModel {
   struct Camera {
     std::uint32_t id;
-    int model;  // COLMAP's number
+    int model;  // COLMAP's number of the model
     const char* name;
     std::uint64_t width;
     std::uint64_t height;
@@ -29,7 +29,7 @@ struct ColmapModel {
     SE3 T_camera_world;
     std::uint32_t camera;
     std::string name;
-    int pixels = 0;  // observed ones
+    int pixels = 0;  // number of observed pixels
   };
   std::vector<Camera> cameras;
   std::vector<Image> images;

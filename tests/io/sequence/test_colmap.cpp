@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 SE3 pose(double k) { return SE3::exp((Vector6d() << 0.3 * k, -0.2, 1.0 + k, 0.2 * k, -0.5, 0.1).finished()); }
 
-// Three images of one 16x12 camera, listed out of order, one of them in a folder of its own.
+// Three images of one 16x12 camera, listed out of order, one of them in a subfolder.
 ColmapModel tiny_model() {
   ColmapModel model;
   model.cameras = {{7, 4, "OPENCV", 16, 12, {20.0, 21.0, 8.25, 6.5, 0.01, -0.02, 0.003, -0.004}}};
@@ -109,8 +109,8 @@ TEST(SequenceColmap, PrefersBinaryAndTheCameraFile) {
   EXPECT_NEAR(s.time(2), 0.2, 1e-12);
 }
 
-// A point of the world, by COLMAP's own chain: its pose, its lens, pixels counted from the corner. Ours must see it on
-// the same spot of the image, half a pixel less in numbers.
+// Projects a point as COLMAP defines it: by its pose and lens model, with pixels counted from the corner. The sequence
+// must project it to the same place in the image, half a pixel less in coordinates.
 TEST(SequenceColmap, ReprojectsAPointWhereColmapDoes) {
   const ColmapModel model = tiny_model();
   const TempFolder temp;
@@ -197,7 +197,7 @@ TEST(ColmapImages, NamesEveryFault) {
   EXPECT_THAT(fault("1 1 0 0 0 0 0 x 7 a.png\n\n"), HasSubstr("`x` is not a number"));
   EXPECT_THAT(fault("1 1 0 0 0 0 0 0 -7 a.png\n\n"), HasSubstr("`-7` is not the number of a camera"));
   EXPECT_THAT(fault(good + good), HasSubstr("image a.png: is listed twice"));
-  // The empty lines forgotten: the second image would be taken for pixels, whatever the number of words in its name.
+  // Without the empty lines the second image would be read as pixels, whatever the number of words in its name.
   EXPECT_THAT(fault("1 1 0 0 0 0 0 0 7 a.png\n2 1 0 0 0 0 0 0 7 b 0 1.png\n"),
               HasSubstr("line 2: expected the pixels"));
   EXPECT_THAT(fault("1 1 0 0 0 0 0 0 7 a.png\n1.5 2.5 0.5\n"), HasSubstr("line 2: expected the pixels"));
@@ -268,7 +268,7 @@ TEST(SequenceColmap, RefusesSeveralCamerasUnlessOneIsGiven) {
   model.images[0].camera = 8;
   put(temp, "", model, false);
   put_images(temp, "", model);
-  expect_tiny(temp.path());  // two cameras of the same numbers are one
+  expect_tiny(temp.path());  // two cameras with the same parameters count as one
   model.cameras[1].parameters[0] = 20.5;
   put(temp, "", model, false);
   EXPECT_THAT(error_of([&] { Sequence::open(temp.path()); }),
@@ -312,7 +312,7 @@ TEST(SequenceColmap, ReflectsThePointsWithThePoses) {
   temp.put("camera.yaml", "width: 16\nheight: 12\nfx: 30\nfy: -30\ncx: 7.5\ncy: 5.5\n");
   const Sequence s = Sequence::open(temp.path());
   const Eigen::Vector3d p_stored(1, 2, 3);
-  const Eigen::Vector3d stored = pose(2) * p_stored;  // in the camera
+  const Eigen::Vector3d stored = pose(2) * p_stored;  // in the camera frame
   const Eigen::Vector3d p = s.sparse_points().points[0].cast<double>();
   const Eigen::Vector3d ours = s.T_world_camera(0)->inverse() * p;
   EXPECT_LT((ours - Eigen::Vector3d(stored.x(), -stored.y(), stored.z())).norm(), 1e-6);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// In every layout frames are played in the order in which they were taken, and each keeps its own image, depth and
-// pose.
+// In every layout the frames are in the order in which they were taken, and each has its own image, depth and pose.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +22,7 @@ using test::error_of;
 using test::TempFolder;
 using testing::HasSubstr;
 
-// As a folder lists them by bytes, and as COLMAP lists what it registered: neither is the order of the numbers.
+// The order in which a folder (by bytes) or COLMAP lists the images, which is not the order of their numbers.
 const std::vector<int> listed{10, 11, 1, 9, 2, 100};
 const std::vector<int> taken{1, 2, 9, 10, 11, 100};
 const std::string camera_yaml = "width: 16\nheight: 12\nfx: 20\nfy: 21\ncx: 7.5\ncy: 5.5\ndepth_scale: 1000\n";
@@ -206,7 +205,7 @@ TEST(FrameOrder, NerfstudioWithStamps) {
   EXPECT_NEAR(s.time(0), 1000.15, 1e-9);
   EXPECT_NEAR(s.truth().back().time, 1000.249, 1e-9);
 
-  // A frame without a pose takes no place among the poses.
+  // A frame without a pose has no entry among the poses.
   json holed = file;
   for (json& frame : holed["frames"]) {
     if (std::abs(frame["timestamp"].get<double>() - 1000.15) < 1e-9) frame.erase("transform_matrix");

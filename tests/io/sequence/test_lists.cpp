@@ -126,7 +126,7 @@ TEST(PairList, FaultsAreNamed) {
 TEST(Association, TakesNearestPairsFirstAndEachOnce) {
   EXPECT_THAT(associate_by_time({0.0, 0.033, 0.066}, {0.001, 0.031, 0.064}, 0.02),
               ElementsAre(Pair(0, 0), Pair(1, 1), Pair(2, 2)));
-  // 0.010 is within reach of both, nearer to the second; the first goes without.
+  // 0.010 is within the limit of both and nearer to the second; the first gets no partner.
   EXPECT_THAT(associate_by_time({0.0, 0.012}, {0.010}, 0.02), ElementsAre(Pair(1, 0)));
   EXPECT_THAT(associate_by_time({0.0}, {0.021}, 0.02), IsEmpty());
   EXPECT_THAT(associate_by_time({}, {1.0}, 0.02), IsEmpty());
@@ -142,11 +142,11 @@ TEST(PoseAtTime, EqualElseBetweenElseNearest) {
   };
   EXPECT_EQ(x(1.0), 1.0);
   EXPECT_EQ(x(1.05 + 4e-7), 2.0);
-  EXPECT_NEAR(x(1.02), 1.4, 1e-9);  // between
-  EXPECT_EQ(x(1.055), 2.0);         // the bracket 1.05 .. 2.0 is too wide: nearest
+  EXPECT_NEAR(x(1.02), 1.4, 1e-9);  // interpolated
+  EXPECT_EQ(x(1.055), 2.0);         // the interval 1.05 .. 2.0 is too long to interpolate: nearest pose
   EXPECT_EQ(x(1.07), -1.0);
   EXPECT_EQ(x(1.995), 10.0);
-  EXPECT_EQ(x(2.009), 10.0);  // behind the end
+  EXPECT_EQ(x(2.009), 10.0);  // after the last pose
   EXPECT_EQ(x(2.02), -1.0);
   EXPECT_EQ(x(0.995), 1.0);
   EXPECT_EQ(x(0.9), -1.0);

@@ -67,7 +67,7 @@ TEST(MovedSequence, OpensInTheOtherWorld) {
     EXPECT_LT(((moved * *from.T_world_camera(j)).inverse() * *to.T_world_camera(i)).log().norm(), 1e-8);
     EXPECT_LT(((moved * *from.T_world_depth(j)).inverse() * *to.T_world_depth(i)).log().norm(), 1e-8);
     EXPECT_EQ(to.color(i)(5, 5), from.color(j)(5, 5));
-    // A pixel's point moves with the world.
+    // The depth scales with the world.
     const double depth = to.depth(i)(5, 5);
     EXPECT_NEAR(depth, 2.5 * static_cast<double>(from.depth(j)(5, 5)), 1e-6);
   }

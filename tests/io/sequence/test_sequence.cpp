@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Small sequences made here, in every layout: what is read, and what bad input says.
+// Small synthetic sequences in every layout: what is read, and the messages for bad input.
 #include "odosplat/io/sequence/sequence.hpp"
 
 #include <gmock/gmock.h>
@@ -30,7 +30,7 @@ constexpr int width = 16;
 constexpr int height = 12;
 const std::string camera_yaml = "width: 16\nheight: 12\nfx: 20\nfy: 21\ncx: 7.5\ncy: 5.5\ndepth_scale: 500\n";
 
-// Grey level and raw depth tell the frames apart.
+// Grey level and raw depth identify the frame.
 cv::Mat3b color_of(int k, int w = width, int h = height) {
   return cv::Mat3b(h, w, cv::Vec3b::all(static_cast<uchar>(10 * k + 5)));
 }
@@ -187,7 +187,8 @@ TEST(SequenceTum, NegativeFyReflectsPosesUnlessAsStored) {
   const Eigen::Matrix4d F = Eigen::Vector4d(1, -1, 1, 1).asDiagonal();
   EXPECT_LT((s.T_world_camera(0)->matrix() - F * stored.matrix() * F).norm(), 1e-12);
   EXPECT_LT((s.truth()[0].T_world_camera.matrix() - F * stored.matrix() * F).norm(), 1e-12);
-  // A point seen at a pixel by the stored pose with fy < 0 is seen there, mirrored, by the reflected one with fy > 0.
+  // The stored pose with fy < 0 and the reflected pose with fy > 0 project a point and its mirror image to the same
+  // pixel.
   const Eigen::Vector3d p_world(1.5, 2.5, 6.0);
   const Eigen::Vector3d a = stored.inverse() * p_world;
   const Eigen::Vector3d b = s.T_world_camera(0)->inverse() * Eigen::Vector3d(1.5, -2.5, 6.0);
@@ -203,7 +204,7 @@ TEST(SequenceTum, ANamedCameraFileCounts) {
   const Sequence s = Sequence::open(temp.path(), options);
   EXPECT_EQ(s.camera().fx, 99.0);
   EXPECT_EQ(s.fps(), 12.5);
-  EXPECT_EQ(s.depth_scale(), 5000.0);  // TUM's own, the file names none
+  EXPECT_EQ(s.depth_scale(), 5000.0);  // TUM's default, as the file does not state one
   fs::remove(temp / "camera.yaml");
   EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }),
             temp.path() + ": has no camera.yaml; name a camera file (--camera)");
@@ -214,7 +215,7 @@ TEST(SequenceTum, DistortionIsRemoved) {
   put_tum(temp, 1);
   temp.put("camera.yaml", camera_yaml + "distortion: [0.8, 0, 0, 0]\n");
   const Sequence s = Sequence::open(temp.path());
-  EXPECT_EQ(s.color(0)(0, 0), cv::Vec3f::all(0.0F));  // pincushion: not seen
+  EXPECT_EQ(s.color(0)(0, 0), cv::Vec3f::all(0.0F));  // pincushion distortion: not visible
   EXPECT_EQ(s.depth(0)(0, 0), 0.0F);
   EXPECT_GT(s.depth(0)(6, 8), 0.0F);
   EXPECT_EQ(s.color(0).size(), cv::Size(width, height));
@@ -264,7 +265,7 @@ TEST(SequenceTum, ImagesOfAnotherSizeThanTheCameraAreFoundAtOpening) {
   put_tum(temp);
   const std::string fault = temp / "rgb/10.000.png" + ": is 32x24, " + temp / "camera.yaml" + " is for 16x12";
   temp.put_image("rgb/10.000.png", color_of(0, 32, 24));
-  // One image alone may be damaged; the others say that the camera is right.
+  // A single image of another size may be damaged: the others have the camera's size.
   EXPECT_EQ(error_of([&] { Sequence::open(temp.path()).color(0); }), fault);
   for (const auto& entry : fs::directory_iterator(temp / "rgb")) {
     temp.put_image("rgb/" + entry.path().filename().string(), color_of(0, 32, 24));
@@ -272,7 +273,7 @@ TEST(SequenceTum, ImagesOfAnotherSizeThanTheCameraAreFoundAtOpening) {
   EXPECT_EQ(error_of([&] { Sequence::open(temp.path()); }), fault);
 }
 
-// The pixels belong to another size: decoding them would say "is damaged".
+// The pixels do not match the size in the header: decoding them would report "is damaged".
 TEST(SequenceTum, ImagesAreNotDecodedBeforeTheirSizeIsKnownToBeRight) {
   const TempFolder temp;
   put_tum(temp);

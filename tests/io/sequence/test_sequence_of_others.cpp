@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Sequences as other programs and systems leave them.
+// Sequences as written by other programs and operating systems.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ TEST(SequenceTum, ReadsAssociationsWithTimes) {
   }
   EXPECT_EQ(s.time_text(1), "10.100");
   EXPECT_EQ(s.depth_time_text(1), "10.101");
-  // 1 ms of 1 m in 0.1 s.
+  // The motion is 1 m in 0.1 s; depth is 1 ms later.
   EXPECT_NEAR(s.T_world_depth(1)->translation().x(), 1.01, 1e-6);
 }
 
@@ -137,7 +137,7 @@ TEST(SequenceReplica, FramesMayLackAPose) {
   EXPECT_EQ(s.T_world_camera(2)->translation(), Eigen::Vector3d(2, 0, 0));
 }
 
-// macOS lays them beside every file on drives of other systems and in archives.
+// macOS creates such files beside every file on drives of other systems and in archives.
 TEST(SequenceOpen, FilesThatBeginWithADotAreNone) {
   const TempFolder temp;
   const std::string rubbish("\0\5\x16\7", 4);

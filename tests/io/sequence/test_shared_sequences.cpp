@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Public sequences, where they are at hand: facts from their description, and the geometry by reprojection.
+// Public sequences, if they are available: facts from their descriptions, and the geometry by reprojection.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::TempFolder;
 
-// Median |difference| in mm of depth carried from frame i to frame j by the poses, and the depth measured there.
+// Median |difference| [mm] between depth of frame i transformed to frame j by the poses, and the depth measured there.
 double reprojection_mm(const Sequence& s, std::size_t i, std::size_t j) {
   const DepthImage from = s.depth(i);
   const DepthImage to = s.depth(j);
@@ -54,7 +54,7 @@ struct Facts {
   double depth_scale;
   std::size_t i;
   std::size_t j;
-  double max_error_mm;  // of depth reprojected from i to j; the sets' description says what is usual
+  double max_error_mm;  // of depth reprojected from i to j; usual values are in the sets' description
 };
 
 void PrintTo(const Facts& facts, std::ostream* out) { *out << facts.path; }
@@ -117,7 +117,7 @@ TEST(SharedIcl, ReflectedPosesAreThoseOfTheReducedSet) {
   EXPECT_EQ(a.T_world_camera(1)->translation(), Eigen::Vector3d(0, 0, -2.5));
 }
 
-// A camera file that claims a negative fy for poses that belong to a positive one.
+// A camera file with a negative fy, although the poses belong to a positive one.
 TEST(SharedKt3, AWrongSignOfFyShowsInReprojectionUnlessPosesAreTakenAsStored) {
   SHARED_DATA_OR_SKIP(path, "icl_office_kt3");
   const TempFolder temp;
@@ -153,7 +153,7 @@ TEST(SharedSevenScenes, AgreesWithTheReducedCopy) {
   for (std::size_t k = 0; k < a.size(); ++k) {
     EXPECT_LT((a.T_world_camera(k)->inverse() * *b.T_world_camera(k)).log().norm(), 1e-5) << k;
     const DepthImage depth = a.depth(k);
-    EXPECT_LT(*std::max_element(depth.begin(), depth.end()), 20.0F);  // 65535 is none
+    EXPECT_LT(*std::max_element(depth.begin(), depth.end()), 20.0F);  // 65535 means no depth
   }
 }
 
@@ -164,7 +164,7 @@ TEST(SharedTum, DepthIsTheNearestInTimeAndDistortionIsGone) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     ASSERT_TRUE(s.has_depth(i)) << i;
     ASSERT_TRUE(s.T_world_camera(i)) << i;
-    // Motion capture every 10 ms and a fast turn: between two poses lies less than 3 degrees.
+    // Motion capture every 10 ms during a fast turn: less than 3 degrees between two poses.
     double nearest = 1e9;
     for (const StampedPose& pose : s.truth()) {
       if (std::abs(pose.time - s.time(i)) > 0.01) continue;
@@ -173,7 +173,7 @@ TEST(SharedTum, DepthIsTheNearestInTimeAndDistortionIsGone) {
     EXPECT_LT(nearest, 0.05) << i;
   }
   EXPECT_EQ(s.truth().front().time_text, "1305031225.9334");
-  // The lens of fr1 has bent the image outwards at the border: its corner is not seen.
+  // Reads the sequence again without its lens distortion: the images differ.
   TempFolder temp;
   fs::copy(path, temp / "raw", fs::copy_options::recursive);
   std::ifstream in(path + "/camera.yaml");

@@ -22,7 +22,7 @@ using test::error_of;
 using test::TempFolder;
 using testing::HasSubstr;
 
-// The camera of frame k looks along the world's +x from (k, 0, 1), with the world's z up. Columns: right, up, backward.
+// The camera of frame k looks along the world's +x from (k, 0, 1); the world's z is up. Columns: right, up, backward.
 json matrix(int k) { return {{0, 0, -1, k}, {-1, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 0, 1}}; }
 
 json tiny() {
@@ -57,7 +57,7 @@ TEST(SequenceNerfstudio, ReadsFrames) {
     EXPECT_NEAR(s.color(i)(3, 3)[0], 20.0F * static_cast<float>(i) / 255.0F, 1e-6F);
     EXPECT_NEAR(s.time(i), static_cast<double>(i) / 30.0, 1e-12);
   }
-  // Two metres ahead, half a metre to the right (world -y), a quarter up: right of the centre and above it.
+  // Two metres ahead, half a metre to the right (world -y) and a quarter up: to the right of the centre and above it.
   const Eigen::Vector3d p_camera = s.T_world_camera(1)->inverse() * Eigen::Vector3d(3.0, -0.5, 1.25);
   EXPECT_LT((p_camera - Eigen::Vector3d(0.5, -0.25, 2.0)).norm(), 1e-9);
   const Eigen::Vector2d pixel = s.camera().project(p_camera);
@@ -80,7 +80,7 @@ TEST(SequenceNerfstudio, ReadsDepthAndPoints) {
   ASSERT_TRUE(s.has_depth(1));
   EXPECT_NEAR(s.depth(1)(2, 2), 1.5F, 1e-6F);
   EXPECT_EQ(s.sparse_points().points.front(), Eigen::Vector3f(1, 2, 3));
-  // The poses are the stored ones, whatever applied_transform says.
+  // The poses are those stored; applied_transform is ignored.
   EXPECT_LT((s.T_world_camera(2)->translation() - Eigen::Vector3d(2, 0, 1)).norm(), 1e-12);
   file["depth_unit_scale_factor"] = 0.0002;
   put(temp, file);

@@ -54,7 +54,7 @@ TEST(EurocCsv, AHeadingThatNamesTheQuaternionCounts) {
 }
 
 TEST(EurocCsv, OtherTablesKeepTheirMeaning) {
-  // TUM's format with commas, and with nanoseconds as some trackers write it: x y z w.
+  // TUM's format with commas, and with nanoseconds as some trackers write it: the quaternion is x y z w.
   for (const std::string text : {"1.5,1,2,3,0,0,0,1", "1403636580838555648 1 2 3 0 0 0 1"}) {
     EXPECT_FALSE(is_euroc_csv(text));
     EXPECT_EQ(parse_trajectory("t", text)[0].T_world_camera.rotation().w(), 1.0);

@@ -35,7 +35,7 @@ TEST(TrajectoryFile, ReadsTumWithCommentsBlanksAndCarriageReturns) {
   EXPECT_EQ(t[0].time, 1.5);
   EXPECT_EQ(t[0].time_text, "1.50");
   EXPECT_EQ(t[0].T_world_camera.translation(), Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(t[0].T_world_camera.rotation().w(), 1.0);  // scaled to unit length
+  EXPECT_EQ(t[0].T_world_camera.rotation().w(), 1.0);  // normalised
   EXPECT_LT(distance(t[1].T_world_camera, SE3(so3_exp({0, 0, M_PI}), Eigen::Vector3d(-1, 0, 0))), 1e-12);
 }
 
@@ -63,7 +63,7 @@ TEST(TrajectoryFile, EmptyTrajectoryIsACommentLine) {
 }
 
 TEST(TrajectoryFile, ReadsMatricesOfEveryShape) {
-  // A quarter turn about z, moved by (1, 2, 3).
+  // A rotation by 90 degrees about z and a translation by (1, 2, 3).
   const SE3 expected(so3_exp({0, 0, M_PI / 2}), Eigen::Vector3d(1, 2, 3));
   const std::string rows3 = "0 -1 0 1\n1 0 0 2\n0 0 1 3\n";
   const std::string flat12 = "0 -1 0 1 1 0 0 2 0 0 1 3";
@@ -187,7 +187,7 @@ TEST(TrajectoryFile, UnwritablePlaceLeavesNothing) {
 
 struct EvoFile {
   const char* name;
-  std::size_t poses;  // lines that are no comment, by grep -vc
+  std::size_t poses;  // number of lines without comments
   const char* first_stamp;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Videos that are damaged, cut off, or no videos at all.
+// Videos that are damaged or truncated, and files that are not videos.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -32,7 +32,7 @@ std::string bytes_of_video(const TempFolder& temp, const std::string& name) {
   return read_file(temp / name);
 }
 
-/// Where the data of image k of an AVI begin, and how long they are.
+/// Position and length of the data of image k in an AVI.
 std::pair<std::size_t, std::size_t> chunk(const std::string& avi, std::size_t k) {
   std::size_t at = avi.find("movi");
   for (std::size_t i = 0; i <= k; ++i) at = avi.find("00dc", at + 4);
@@ -72,7 +72,7 @@ TEST(VideoDamage, AnImageThatIsMissingIsToldAndThatTheStampsShift) {
   EXPECT_THAT(said.warnings, AllOf(HasSubstr("junk.avi: is damaged or cut off: 11 images are read, 1 that it promises "
                                              "are missing"),
                                    HasSubstr("those behind a missing one are too early")));
-  // Without the index at the file's end, its header tells.
+  // Without the index at the file's end, the number is in its header.
   const Said bare = read(temp.put("bare.avi", avi.substr(0, avi.rfind("idx1"))));
   EXPECT_EQ(bare.size, frames - 1);
   EXPECT_THAT(bare.warnings, HasSubstr("1 that it promises are missing"));
@@ -97,7 +97,7 @@ TEST(VideoDamage, ImagesWithoutDataAreCounted) {
   const Said said = read(temp.put("zero.avi", avi));
   EXPECT_EQ(said.size, frames - 2);
   EXPECT_THAT(said.warnings, HasSubstr("zero.avi: is damaged or cut off: 10 images are read, 2 cannot be decoded"));
-  // The container counts them all the same: the others keep their stamps.
+  // The container counts the images that cannot be decoded, so the others keep their time stamps.
   EXPECT_NEAR(said.times.at(3), 0.4, 1e-3);
   EXPECT_NEAR(said.times.at(9), 1.1, 1e-3);
 }
@@ -113,14 +113,14 @@ TEST(VideoDamage, MatroskaEndsBeforeItsHeaderSays) {
   const Said half = read(temp.put("half.mkv", mkv.substr(0, 6 * mkv.size() / 10)));
   EXPECT_LT(half.size, frames);
   EXPECT_THAT(half.warnings, HasSubstr("before its header says"));
-  // Formats that show their streams late, or have no index.
+  // Formats that declare their streams late or have no index.
   for (const char* name : {"b.flv", "b.ts", "b.mov", "b.webm"}) {
     const std::string kind = std::string(name).substr(2);
     const std::string encoder = kind == "webm" ? "libvpx" : kind == "flv" ? "flv" : "mpeg2video -r 25";
     ASSERT_EQ(std::system((to_mkv + "-c:v " + encoder + " '" + temp / name + "'").c_str()), 0) << name;
     EXPECT_EQ(read(temp / name).warnings, "") << name;
   }
-  // Another stream may be longer, and a cut by edit list hides images on purpose.
+  // Another stream may be longer, and an edit list may hide images on purpose.
   ASSERT_EQ(std::system((to_mkv + "-f lavfi -i sine=duration=3 -c:v copy '" + temp / "sound.mkv" + "'").c_str()), 0);
   EXPECT_EQ(read(temp / "sound.mkv").warnings, "");
   ASSERT_EQ(
@@ -131,7 +131,7 @@ TEST(VideoDamage, MatroskaEndsBeforeItsHeaderSays) {
   EXPECT_EQ(read(temp / "cut.mp4").warnings, "");
 }
 
-// FFmpeg's lists and playlists would be followed to whatever they name, into pipes too.
+// FFmpeg would open the files that a list or playlist names, even pipes.
 TEST(VideoDamage, ListsOfOtherFilesAreNoVideos) {
   const TempFolder temp;
   bytes_of_video(temp, "a.avi");

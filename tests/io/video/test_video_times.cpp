@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Stamps and turns of videos, made here by the program ffmpeg: what the containers say is what is read.
+// Time stamps and rotation of videos created by the program ffmpeg: they must be read as stored in the container.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ bool has_ffmpeg() { return std::system("ffmpeg -version >/dev/null 2>&1") == 0; 
 #define FFMPEG_OR_SKIP() \
   if (!has_ffmpeg()) GTEST_SKIP() << "the program ffmpeg is not installed (Debian package ffmpeg)"
 
-// Another rate after the sixth frame, pauses, and a rate that sways.
+// Changing frame rates, pauses and irregular intervals.
 const std::vector<int> uneven_ms{0,   20,  40,   60,   80,   100,  820,  840,  860,  880,
                                  961, 998, 1120, 1201, 1280, 4360, 4460, 4540, 4543, 4700};
 std::vector<int> even_ms() {
@@ -37,7 +37,7 @@ std::vector<int> even_ms() {
 
 int level(std::size_t k) { return 10 + 12 * static_cast<int>(k); }
 
-// Frames of one grey each, at these times.
+// Frames at these times, each with a uniform grey level.
 std::string make_video(const TempFolder& temp, const std::string& name, const std::vector<int>& ms,
                        const std::string& encoder) {
   std::string raw;
@@ -85,7 +85,7 @@ TEST(VideoTimes, AreThePresentationStampsOfTheContainer) {
     const TempFolder temp;
     testing::internal::CaptureStderr();
     const VideoReader reader(make_video(temp, clip.name, uneven_ms, clip.encoder));
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // nothing is missing
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // no warning about missing images
     ASSERT_EQ(reader.size(), uneven_ms.size());
     ASSERT_EQ(reader.times().size(), uneven_ms.size());
     for (std::size_t k = 0; k < uneven_ms.size(); ++k) EXPECT_NEAR(reader.times()[k], 0.001 * uneven_ms[k], 1e-3) << k;
@@ -98,7 +98,7 @@ TEST(VideoTimes, StartWhereTheContainerStarts) {
   const TempFolder temp;
   const VideoReader reader(make_video(temp, "b.ts", uneven_ms, h264));
   ASSERT_EQ(reader.times().size(), uneven_ms.size());
-  EXPECT_GT(reader.times()[0], 1.0);  // a transport stream leaves its decoder time
+  EXPECT_GT(reader.times()[0], 1.0);  // a transport stream reserves time for its decoder
   for (std::size_t k = 0; k < uneven_ms.size(); ++k) {
     EXPECT_NEAR(reader.times()[k] - reader.times()[0], 0.001 * uneven_ms[k], 1e-3) << k;
   }
@@ -158,7 +158,7 @@ TEST(VideoTimes, ADamagedEndLosesFramesAndNoStamps) {
   for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(cut.times()[k], 0.001 * uneven_ms[k], 1e-3) << k;
 }
 
-// An MP4 whose track is to be shown with x' = a x + c y, y' = b x + d y; its first quarter is bright as it is stored.
+// An MP4 whose track matrix is x' = a x + c y, y' = b x + d y; the top left quarter of the stored image is bright.
 std::string with_matrix(const TempFolder& temp, int a, int b, int c, int d) {
   const std::string path = temp / "clip.mp4";
   VideoWriter writer(path, {64, 48}, 25.0);
@@ -167,7 +167,7 @@ std::string with_matrix(const TempFolder& temp, int a, int b, int c, int d) {
   for (int k = 0; k < 5; ++k) writer.write(image);
   writer.commit();
   std::string bytes = read_file(path);
-  const std::size_t matrix = bytes.find("tkhd") + 4 + 40;  // of version 0
+  const std::size_t matrix = bytes.find("tkhd") + 4 + 40;  // in a track header of version 0
   const auto put = [&](std::size_t place, int value) {
     for (std::size_t i = 0; i < 4; ++i) {
       bytes[matrix + 4 * place + i] = static_cast<char>((static_cast<std::uint32_t>(value) << 16) >> (8 * (3 - i)));

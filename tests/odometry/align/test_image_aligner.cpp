@@ -44,7 +44,7 @@ class ImageAlignerTest : public testing::Test {
 };
 
 TEST_F(ImageAlignerTest, PointsOfOtherKeyframesAreEnoughToTrackBy) {
-  // A reference without any map depth: points as another keyframe would project them here, and their neighbours.
+  // A reference without map depth: points projected from another keyframe, and their neighbours.
   TrackingReference projected;
   projected.cameras = host_.cameras;
   projected.levels.resize(host_.gray.size());
@@ -60,7 +60,7 @@ TEST_F(ImageAlignerTest, PointsOfOtherKeyframesAreEnoughToTrackBy) {
   const SE3 truth(so3_exp({0.01, -0.02, 0.015}), {0.03, 0.01, -0.02});
   const Alignment found = aligner_.align(projected, seen_from(truth), SE3(), {}, 9, 0);
   expect_pose(found, truth, 0.001, 0.0006);
-  // Pixels that are in the reference already are not added again.
+  // Pixels already in the reference are not added again.
   const std::size_t before = projected.levels.front().size();
   add_projected_points(projected, gradients_, seen, {});
   EXPECT_EQ(projected.levels.front().size(), before);
@@ -76,7 +76,7 @@ TEST_F(ImageAlignerTest, ClippedPixelsDoNotPullTheGain) {
   ASSERT_LT(clipped, static_cast<int>(bright.total()) * 3 / 4);
   const Alignment found = aligner_.align(reference_, build_frame_pyramid(camera_, bright), SE3(), {}, 9, 0);
   expect_pose(found, truth, 0.002, 0.001);
-  EXPECT_NEAR(found.brightness.a, std::log(gain), 0.05);  // what is missing is in the offset
+  EXPECT_NEAR(found.brightness.a, std::log(gain), 0.05);  // the difference is compensated by the offset
   EXPECT_GT(found.inlier_share, 0.95);
 }
 
@@ -101,7 +101,7 @@ TEST_F(ImageAlignerTest, TemplateJacobiansMatchCentralDifferences) {
       return Eigen::VectorXd::Constant(1,
                                        bilinear(host_.gray[0], static_cast<float>(uv.x()), static_cast<float>(uv.y())));
     };
-    // A step of one pixel: what the template's own central differences span.
+    // A step of about one pixel, which is the extent of the template's central differences.
     const double step = 1.0 / camera_.fx;
     const Eigen::MatrixXd numeric = test::central_differences(value, Eigen::VectorXd::Constant(6, step * 0.9));
     for (int i = 3; i < 6; ++i) {
@@ -118,7 +118,7 @@ TEST_F(ImageAlignerTest, PointsLieOnTheWalls) {
     for (const ReferencePoint& point : level) {
       const Eigen::Vector3d p = T_world_host_ * Eigen::Vector3d(point.x, point.y, point.z);
       const Eigen::Vector3d to_wall = room_.half_size - p.cwiseAbs();
-      // In the room's edges a plane over a few pixels cuts the corner.
+      // Near the room's edges a plane fitted over a few pixels cuts the corner.
       EXPECT_LT(std::abs(to_wall.minCoeff()), 0.05);
     }
   }
@@ -148,10 +148,10 @@ TEST_F(ImageAlignerTest, FindsMotionsOfManyDirections) {
 TEST_F(ImageAlignerTest, APriorHoldsOnlyWhatTheImageDoesNotTell) {
   const SE3 truth(so3_exp({0.01, -0.02, 0.005}), {0.02, -0.01, 0.015});
   const FramePyramid target = seen_from(truth);
-  // Textured walls say a thousand times more than a prior of centimetres.
+  // The information of textured walls is a thousand times that of a prior of centimetres.
   const PosePrior weak = pose_prior(SE3(), 0.02, 0.02);
   expect_pose(aligner_.align(reference_, target, SE3(), {}, 5, 0, &weak), truth, 0.0015, 0.0008);
-  // Of walls that show next to nothing but noise, the prior's pose is kept.
+  // If the walls show almost only noise, the pose of the prior is kept.
   Random random(4);
   GrayImage bare;
   room_.gray(camera_, T_world_host_ * truth.inverse()).convertTo(bare, CV_32F, 0.02, 0.4);
@@ -214,7 +214,7 @@ TEST_F(ImageAlignerTest, LookingAwayIsNotFinished) {
 }
 
 TEST_F(ImageAlignerTest, InformationPredictsTheErrorOfNoise) {
-  // Monte Carlo: pose errors under white noise of the assumed size against the covariance claimed.
+  // Monte Carlo test: pose errors under white noise of the assumed size, normalised by the information matrix.
   const ImageAlignerOptions options;
   const SE3 truth(so3_exp({0.004, -0.003, 0.002}), {0.004, 0.002, -0.003});
   const GrayImage clean = room_.gray(camera_, T_world_host_ * truth.inverse());
@@ -228,7 +228,7 @@ TEST_F(ImageAlignerTest, InformationPredictsTheErrorOfNoise) {
     const Vector6d error = (truth.inverse() * a.T_target_host).log();
     sum += error.dot(a.information * error);
   }
-  // Six degrees of freedom; weights below one and interpolation make the claim a little too careful.
+  // Six degrees of freedom; weights below one and interpolation make the covariance slightly too large.
   EXPECT_GT(sum / runs, 1.0);
   EXPECT_LT(sum / runs, 12.0);
 }

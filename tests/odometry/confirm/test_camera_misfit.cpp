@@ -15,13 +15,13 @@ namespace {
 
 class CameraMisfitTest : public testing::Test {
  protected:
-  /// 320 x 240: what a wrong camera does is a matter of pixels.
+  /// 320 x 240, because the effects of a wrong camera are measured in pixels.
   CameraMisfitTest() { camera_ = camera_.resized(320, 240); }
 
   ViewPatches patches(const SE3& T_world_view, const Camera& camera) {
     return ViewPatches(camera, {T_world_view, room_.render(camera, T_world_view, {true, false})}, 0.0, {});
   }
-  /// Images of the right camera, seen by one that is said to be `told`, at poses that are right.
+  /// Adds images of the true camera, with `told` as the assumed camera model, at the true poses.
   void watch(CameraMisfit& misfit, const Camera& told, int keyframes = 6) {
     for (int k = 0; k < keyframes; ++k) {
       const SE3 T_world_camera = test::room_path(30 * k);
@@ -46,7 +46,7 @@ TEST_F(CameraMisfitTest, SquaresTellAShiftOfThePose) {
     const MisfitSystem system = view.misfit(image, T_camera_world, {}, 0, 0.3);
     ASSERT_GT(system.patches, 100);
     const Vector6d found = system.information.topLeftCorner<6, 6>().ldlt().solve(system.vector.head<6>().eval());
-    // One step from squares with one motion each: it goes the right way, most of it.
+    // One step reduces the error by more than half; it is not exact, as each square has a single motion.
     EXPECT_LT((found + twist).norm(), 0.5 * twist.norm()) << axis;
   }
 }

@@ -26,8 +26,8 @@ class MapConfirmationTest : public testing::Test {
   ConfirmationOptions options_;
 };
 
-/// The score of one level as its definition says, in double precision: every square of the view, less the plane that
-/// fits it best, against what the image shows in its place.
+/// The score of one level by its definition, in double precision: the correlation of every square of the view with the
+/// image at the same place, both without the plane that fits them best.
 double score_by_definition(const Camera& camera, const GrayImage& rendered, const DepthImage& depth,
                            const GrayImage& image, const SE3& T_camera_view, double min_texture, int& patches) {
   Eigen::MatrixXd basis(patch_pixels, 3);
@@ -128,13 +128,13 @@ TEST_F(MapConfirmationTest, WhiteNoiseIsContradicted) {
 
 TEST_F(MapConfirmationTest, WhereNothingCanBeComparedNothingIsSaid) {
   const FramePyramid image = pyramid(room_.gray(camera_, test::room_path(0)));
-  // A wall of one colour, seen and mapped.
+  // A wall of uniform colour, in the image and in the map.
   const GrayImage wall(camera_.height, camera_.width, 0.6F);
   RenderedView blank{SE3(), {}};
   blank.images.color = ColorImage(camera_.height, camera_.width, cv::Vec3f(0.6F, 0.6F, 0.6F));
   blank.images.depth = DepthImage(camera_.height, camera_.width, 2.0F);
   EXPECT_EQ(ViewPatches(camera_, blank, 0.0, options_).compare(pyramid(wall), SE3()).verdict, Confirmation::none);
-  // A map without colours, one without depth, and a pose from where nothing of the view is seen.
+  // A pose that sees nothing of the view, a map without depth, and a map without colours.
   RenderedView view{test::room_path(0), room_.render(camera_, test::room_path(0), {true, false})};
   const SE3 turned = test::room_path(0) * SE3(so3_exp({0.0, 3.0, 0.0}), Eigen::Vector3d::Zero());
   EXPECT_EQ(ViewPatches(camera_, view, 0.0, options_).compare(image, turned).verdict, Confirmation::none);
@@ -151,7 +151,8 @@ TEST_F(MapConfirmationTest, ProbabilityFollowsBayesRule) {
   options_.null_common = 0.03;
   options_.null_patch = 0.4;
   options_.prior = 0.5;
-  // 100 squares: variance 0.0009 + 0.0016, standard deviation 0.05; density at two of them 7.9788 * exp(-2) = 1.0798.
+  // 100 squares: variance 0.0009 + 0.0016, standard deviation 0.05; the density at two standard deviations is 7.9788 *
+  // exp(-2) = 1.0798.
   EXPECT_NEAR(confirmation_probability(0.1, 100, options_), 1.0 / (1.0 + 1.0798), 1e-4);
   EXPECT_LT(confirmation_probability(-0.8, 100, options_), 0.2);
   double last = 0.0;

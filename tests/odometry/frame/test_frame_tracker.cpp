@@ -13,7 +13,7 @@ TEST(FrameTracker, AKeyframesCorrectionIsNoMotion) {
   FrameTracker tracker{FrameTrackerOptions()};
   tracker.confirm(0.0, first);
   tracker.confirm(1.0, first * step);
-  // The third frame becomes a keyframe, and the map moves it by 6 cm from where it was tracked.
+  // The third frame becomes a keyframe, and the map corrects its tracked pose by 6 cm.
   const SE3 correction(so3_exp({0.01, 0.0, -0.02}), {0.05, -0.03, 0.02});
   ReferenceFrame keyframe;
   keyframe.id = 0;

@@ -10,7 +10,7 @@
 namespace odosplat {
 namespace {
 
-/// The box room in paint of so little contrast that a camera's noise is as strong as its gradients.
+/// The box room with so little contrast that the camera's noise is as large as the gradients.
 class TrackingReferenceTest : public testing::Test {
  protected:
   FramePyramid seen_from(const SE3& T_world_camera, double contrast, std::uint64_t seed) {

@@ -9,7 +9,7 @@
 namespace odosplat {
 namespace {
 
-// The map shows the left third of the image 30 cm nearer and with other colours than there are.
+// In the left third of the image the map's depth is 30 cm too small and its colours are wrong.
 TEST(KeyframeMaker, DepthIsTrustedWhereTheMapLooksLikeTheImage) {
   const Camera camera = test::small_camera();
   test::BoxRoom room;
@@ -20,7 +20,7 @@ TEST(KeyframeMaker, DepthIsTrustedWhereTheMapLooksLikeTheImage) {
     return maker.make(make_even(pyramid), build_gradients(*pyramid), view, T, {}, ImageAligner({}));
   };
   const int moved = camera.width / 3;
-  // A block is up to 8 px wide; the border between the two belongs to neither.
+  // A block is up to 8 px wide: points near the border between the two parts are ignored.
   const auto is_on = [&](float u, bool left) {
     return left ? u < static_cast<float>(moved) - 10.0F : u > static_cast<float>(moved) + 10.0F;
   };

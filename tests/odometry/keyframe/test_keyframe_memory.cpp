@@ -13,7 +13,7 @@ namespace {
 
 class KeyframeMemoryTest : public testing::Test {
  protected:
-  /// As the back end has it, once adjusted.
+  /// A keyframe with reference and covariance, as after the back end's adjustment.
   std::shared_ptr<Keyframe> keyframe(const SE3& T_world_camera) {
     const auto pyramid = std::make_shared<FramePyramid>(image(room_, T_world_camera));
     KeyframeMaker maker({});
@@ -61,7 +61,7 @@ TEST_F(KeyframeMemoryTest, AnotherRoomOrAnotherSideOfItIsNotFound) {
   EXPECT_TRUE(memory.recall(image(other, T_nearby_), T_nearby_, aligner_).empty());
   const SE3 T_turned = T_place_ * SE3(so3_exp({0.0, 2.5, 0.0}), Eigen::Vector3d::Zero());
   EXPECT_TRUE(memory.recall(image(room_, T_turned), T_turned, aligner_).empty());
-  // Nor does the camera's being lost make one place of two.
+  // Nor with the remembered place as a wrong predicted pose.
   EXPECT_TRUE(memory.recall(image(room_, T_turned), T_place_, aligner_).empty());
 }
 
@@ -83,7 +83,7 @@ TEST_F(KeyframeMemoryTest, TheLikestComeFirstAndSayMost) {
 TEST_F(KeyframeMemoryTest, KeepsWhatIsNewAndNearTheMap) {
   KeyframeMemory memory(camera_, {});
   memory.remember(keyframe(T_place_), 0);
-  memory.remember(keyframe(test::room_path(21)), 0);  // all but the same
+  memory.remember(keyframe(test::room_path(21)), 0);  // almost the same view
   EXPECT_EQ(memory.size(), 1U);
   const SE3 T_turned = T_place_ * SE3(so3_exp({0.0, 2.5, 0.0}), Eigen::Vector3d::Zero());
   memory.remember(keyframe(T_turned), 2);  // too far from the map

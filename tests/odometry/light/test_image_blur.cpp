@@ -17,7 +17,8 @@ class ImageBlurTest : public test::RoomPairTest {
  protected:
   ImageBlurTest() { room_.detail = 2.0; }
 
-  /// What is found of an image from the host's own place, blurred by `target`, when the reference is blurred by `host`.
+  /// The estimated blur of an image from the host's pose that is blurred by `target`, with a reference blurred by
+  /// `host`.
   std::optional<Eigen::Matrix2d> found(const Eigen::Matrix2d& host, const Eigen::Matrix2d& target, double gain = 1.0) {
     const GrayImage sharp = room_.gray(camera_, T_world_host_);
     const FramePyramid pyramid = build_frame_pyramid(camera_, apply_blur(sharp, host));
@@ -45,7 +46,7 @@ TEST_F(ImageBlurTest, FindsHowFarAndWhichWay) {
 
 TEST_F(ImageBlurTest, SharpImagesAndSharperOnesAreLeftAlone) {
   EXPECT_FALSE(found(covariance(0.1, 0.0, 0.1), covariance(0.1, 0.0, 0.1)));
-  EXPECT_FALSE(found(covariance(0.1, 0.0, 0.1), covariance(0.3, 0.0, 0.2)));  // too little to be worth the work
+  EXPECT_FALSE(found(covariance(0.1, 0.0, 0.1), covariance(0.3, 0.0, 0.2)));  // too small to be corrected
   EXPECT_FALSE(found(covariance(1.5, 0.0, 1.5), covariance(0.1, 0.0, 0.1)));
 }
 

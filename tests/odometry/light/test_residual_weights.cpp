@@ -32,7 +32,7 @@ TEST_F(ResidualWeightsTest, WhereTheImageIsAnotherPointsWeighLess) {
   const ResidualWeights half = grid(*target);
   int points_left = 0;
   for (const ReferencePoint& point : reference_.levels.front()) {
-    // Between the two the camera's motion and a block's width leave it open.
+    // Near the border between the halves both weights are possible, because of the camera's motion and a block's width.
     if (point.u > 68.0F && point.u < 92.0F) continue;
     const bool left = point.u < 80.0F;
     points_left += left ? 1 : 0;

@@ -13,7 +13,7 @@
 namespace odosplat {
 namespace {
 
-/// Gain at 0..1 over the rows.
+/// Gain as a function of the position over the rows, 0..1.
 using Curve = std::function<double(double)>;
 
 class RowGainTest : public test::RoomPairTest {
@@ -26,7 +26,7 @@ class RowGainTest : public test::RoomPairTest {
     });
   }
 
-  /// Root mean square difference from the curve, both of mean 1.
+  /// Root mean square difference from the curve, both scaled to a mean of 1.
   static double error(const RowGain& gain, const Curve& truth) {
     const int rows = static_cast<int>(gain.size());
     double mean = 0.0;
@@ -50,7 +50,7 @@ TEST_F(RowGainTest, IsFoundInWhateverShape) {
     Alignment alignment = aligned(*frame.even);
     EXPECT_TRUE(even_rows(aligner_, reference_, frame, alignment));
     EXPECT_GT(unevenness(frame.row_gain), 0.05);
-    EXPECT_LT(error(frame.row_gain, curve), 0.015);  // a tenth of the gain
+    EXPECT_LT(error(frame.row_gain, curve), 0.015);  // about a tenth of the gain's variation
   }
 }
 
@@ -110,7 +110,8 @@ TEST_F(RowGainTest, DividesEveryLevelOfThePyramid) {
 }
 
 TEST_F(RowGainTest, IsNotReadIntoAWrongPose) {
-  // Turned by a degree and more the images differ as they would in uneven light, but no row gain mends that.
+  // With a rotation error of more than a degree the images differ similarly to uneven light, but no row gain explains
+  // that.
   const auto target = seen(even_);
   RowGainOptions options;
   options.least = 0.005;

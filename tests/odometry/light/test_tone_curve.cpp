@@ -24,7 +24,8 @@ class ToneCurveTest : public test::RoomPairTest {
     });
   }
 
-  /// Root mean square over the grey values that the reference has, gain and offset apart, of curve less grey^gamma.
+  /// Root mean square difference between the curve, after the best gain and offset, and grey^gamma, over the
+  /// reference's grey values.
   double error(const ToneCurve& curve, double gamma) const {
     std::vector<cv::Point2d> pairs;
     for (const ReferencePoint& point : reference_.levels[0]) {
@@ -73,7 +74,7 @@ TEST_F(ToneCurveTest, IsNotReadIntoAWrongPose) {
 }
 
 TEST_F(ToneCurveTest, FoldedOnesAreRefused) {
-  // Dark and bright alike: explained by a curve, but by none of a camera's.
+  // Dark and bright pixels become equal: a curve explains this, but no camera has such a curve.
   const auto target = RoomPairTest::seen([](GrayImage& image) { image = cv::abs(image - cv::mean(image)[0]); });
   EXPECT_FALSE(estimate_tone(reference_, *target, T_target_host_, {}, {}));
 }

@@ -38,7 +38,8 @@ class EpipolarSearchTest : public testing::Test {
 
 TEST_F(EpipolarSearchTest, FindsTheDepthOfTheRoom) {
   ASSERT_GT(points_.size(), 150U);
-  // A step to the side, then further: the first leaves wide intervals, which keep repeated waves apart later.
+  // Small steps to the side first, then larger ones: the first limit the intervals, so that repeated waves are not
+  // confused later.
   for (const double step : {0.02, 0.05, 0.10, 0.16})
     trace(T_world_host_ * SE3(so3_exp({0.0, 0.0, 0.01}), {step, 0.5 * step, 0.0}));
   int distinct = 0;

@@ -27,7 +27,7 @@ TEST(MapPlane, FitIsExactOnPlanes) {
     ASSERT_TRUE(surface.has_value());
     EXPECT_LT((surface->m_camera - normal / 2.0).norm(), 1e-4);
     EXPECT_NEAR(surface->inverse_depth, 1.0 / depth(70, 60), 1e-6);
-    // Nothing is believed to be better than the floor.
+    // sigma has a lower limit.
     EXPECT_NEAR(surface->sigma, MapPlaneOptions().relative_floor * surface->inverse_depth, 1e-4);
   }
 }
@@ -58,7 +58,7 @@ TEST(MapPlane, EdgesBelongToTheSurfaceInFront) {
   const Camera camera = test::small_camera();
   DepthImage depth(camera.height, camera.width, 3.0F);
   depth(cv::Rect(0, 0, 80, camera.height)).setTo(1.5F);
-  for (const int x : {79, 80}) {  // the last pixel in front, the first behind
+  for (const int x : {79, 80}) {  // the last pixel of the front surface, the first of the rear one
     const auto surface = fit_surface(camera, depth, {}, x, 60, 1, {});
     ASSERT_TRUE(surface.has_value());
     EXPECT_TRUE(surface->edge);
@@ -72,7 +72,7 @@ TEST(MapPlane, NothingWithoutTrustedDepth) {
   const Camera camera = test::small_camera();
   DepthImage depth(camera.height, camera.width, 0.0F);
   EXPECT_FALSE(fit_surface(camera, depth, {}, 60, 70, 1, {}).has_value());
-  depth(70, 60) = 2.0F;  // alone
+  depth(70, 60) = 2.0F;  // a single pixel with depth
   EXPECT_FALSE(fit_surface(camera, depth, {}, 60, 70, 1, {}).has_value());
   depth.setTo(2.0F);
   const cv::Mat1f sigma(camera.height, camera.width, 0.5F);

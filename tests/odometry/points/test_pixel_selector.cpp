@@ -21,7 +21,7 @@ std::vector<GradientImage> gradients_of(const GrayImage& gray) {
   return build_gradients(build_frame_pyramid({gray.cols, gray.rows, 250, 250, 159.5, 119.5}, gray));
 }
 
-/// Blocks of random grey: strong texture on the left, a tenth of its contrast on the right.
+/// Blocks of random grey: strong texture on the left, a fifth of its contrast on the right.
 GrayImage two_halves() {
   Random random(3);
   GrayImage gray(height, width);
@@ -88,7 +88,7 @@ TEST(PixelSelector, BlankImagesHaveNothingToPick) {
   GrayImage flat(height, width, 0.4F);
   PixelSelector selector({});
   EXPECT_TRUE(selector.select(gradients_of(flat), {}, 1000).empty());
-  // Noise below the offset is no texture.
+  // Noise below the offset does not count as texture.
   Random random(1);
   for (float& value : flat) value += static_cast<float>(0.004 * random.normal());
   EXPECT_LT(selector.select(gradients_of(flat), {}, 1000).size(), 10U);

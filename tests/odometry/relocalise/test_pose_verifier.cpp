@@ -108,7 +108,7 @@ TEST_F(PoseVerifierTest, BadOptionsAreRefused) {
 
 class PerspectivePoseTest : public testing::Test {
  protected:
-  /// Pixels of points 1 to 4 m in front of the camera; the first `wrong` of them are somewhere else.
+  /// Pixels of points 1 to 4 m in front of the camera; the first `wrong` pixels are random.
   std::vector<PointMatch> matches(int n, int wrong) const {
     Random random(5);
     std::vector<PointMatch> list;

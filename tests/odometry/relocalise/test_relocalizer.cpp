@@ -13,7 +13,7 @@
 namespace odosplat {
 namespace {
 
-/// A room of which the map has lost everything on one side.
+/// A room whose map lacks everything with x of at least `border`.
 class HalfRoom : public test::BoxRoom {
  public:
   ViewImages render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) override {
@@ -32,7 +32,7 @@ class HalfRoom : public test::BoxRoom {
   double border = 0.0;  // [m]
 };
 
-/// Two rooms that look the same, 100 m apart.
+/// Two identical rooms, 100 m apart.
 class TwinRooms : public test::BoxRoom {
  public:
   static SE3 other(const SE3& T_world_camera) {
@@ -87,7 +87,7 @@ TEST_F(RelocalizerTest, ExposureDoesNotMatter) {
 TEST_F(RelocalizerTest, RefusesAnotherRoom) {
   Relocalizer relocalizer(camera_, room_, places());
   for (int k = 0; k < 240; k += 24) {
-    // A mirrored room: as much texture of the same kind, but nowhere the same.
+    // A mirrored room has texture of the same kind, but no place of the map.
     GrayImage image;
     cv::flip(room_.gray(camera_, test::room_path(k)), image, 1);
     const Relocalization answer = relocalizer.find(image);
@@ -101,7 +101,7 @@ TEST_F(RelocalizerTest, RefusesWhereHalfOfTheMapIsGone) {
   HalfRoom half;
   const SE3 T_world_camera = test::room_path(40);
   Relocalizer relocalizer(camera_, half, places());
-  // The camera looks along z from near x = 0: about half of its view is gone.
+  // The camera looks along z from near x = 0, so about half of its view is missing.
   EXPECT_FALSE(relocalizer.find(room_.gray(camera_, T_world_camera)).found);
   half.border = 9.0;
   Relocalizer whole(camera_, half, places());
@@ -143,7 +143,7 @@ TEST_F(RelocalizerTest, RefusesAnEmptyMapAndNoPlaces) {
 }
 
 TEST_F(RelocalizerTest, AKnownPoseNearbyHelps) {
-  // The only place looks the other way.
+  // The only place looks in another direction.
   const SE3 away = test::room_path(40) * SE3(so3_exp({0.0, 2.5, 0.0}), Eigen::Vector3d::Zero());
   Relocalizer relocalizer(camera_, room_, {away});
   const GrayImage image = room_.gray(camera_, test::room_path(40));

@@ -7,8 +7,8 @@
 
 namespace odosplat::test {
 
-/// d f / d x at 0 by central differences; f returns a vector, step[i] is that of x[i]. The one checker of every
-/// derivative in these tests.
+/// d f / d x at 0 by central differences; f returns a vector, step[i] is the step of x[i]. Used for all derivatives in
+/// these tests.
 inline Eigen::MatrixXd central_differences(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& f,
                                            const Eigen::VectorXd& step) {
   Eigen::MatrixXd J;

@@ -14,7 +14,7 @@
 namespace odosplat::test {
 namespace {
 
-/// All unknowns as one vector of tangent coordinates around the start. Poses are exp(x) T_start.
+/// The window's cost with all unknowns in one vector of tangent coordinates around the start. Poses are exp(x) T_start.
 class WindowCost : public ceres::CostFunction {
  public:
   WindowCost(const Window& window, const Camera& camera, const WindowOptimizerOptions& options)
@@ -72,7 +72,7 @@ class WindowCost : public ceres::CostFunction {
       g.segment(at, n) = depths.g;
       at += n;
     }
-    // H = F^T F, F^T r = g; the last residual holds what is left of the cost.
+    // H = F^T F, F^T r = g; the last residual contains the rest of the cost.
     const Eigen::VectorXd scale = H.diagonal().cwiseMax(1e-6).cwiseSqrt().cwiseInverse();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H * scale.asDiagonal());
     const Eigen::VectorXd roots = eigen.eigenvalues().cwiseMax(1e-12).cwiseSqrt();

@@ -13,9 +13,9 @@ struct CeresOutcome {
   int iterations = 0;
 };
 
-/// The window's adjustment by Ceres: the same costs in one block of all poses, brightness and offsets, whose Jacobian
-/// is the triangular factor of their normal equations, none of them eliminated. A second opinion on the library's own
-/// solver. Moves the window as that does.
+/// The window's adjustment by Ceres, as an independent check of the library's solver: the same costs in one block of
+/// all poses, brightness values and offsets, whose Jacobian is a factor of their normal equations. No unknowns are
+/// eliminated. Changes the window as the library's solver does.
 CeresOutcome optimize_with_ceres(Window& window, const Camera& camera, const WindowOptimizerOptions& options,
                                  int max_iterations);
 

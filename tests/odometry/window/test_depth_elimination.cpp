@@ -10,7 +10,8 @@
 namespace odosplat {
 namespace {
 
-/// Normal equations of random residuals of `keyframes` parameters and `points` offsets, each residual of one offset.
+/// Normal equations of random residuals with `keyframes` keyframe parameters and `points` offsets; each residual
+/// depends on one offset.
 struct Problem {
   Eigen::MatrixXd H;
   Eigen::VectorXd g;

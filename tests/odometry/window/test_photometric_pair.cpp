@@ -37,7 +37,7 @@ class PhotometricPairTest : public testing::Test {
     Brightness target;
   };
 
-  /// The pair with its 16 parameters moved by x.
+  /// The pair with its 16 parameters changed by x.
   static Pair moved(Pair p, const Eigen::VectorXd& x) {
     p.T_world_host = SE3::exp(x.segment<6>(0)) * p.T_world_host;
     p.host = {p.host.a + x[6], p.host.b + x[7]};
@@ -57,12 +57,12 @@ class PhotometricPairTest : public testing::Test {
                          depth_terms);
   }
 
-  /// The analytic gradient at a place beside the truth against differences of the cost.
+  /// Compares the analytic gradient near the truth with differences of the cost.
   void check_gradient(PhotometricOptions options) const {
     Vector16d away;
     away << 0.004, -0.003, 0.002, 0.001, 0.002, -0.001, 0.03, 0.01, -0.002, 0.003, 0.004, -0.001, 0.001, 0.002, -0.02,
         0.02;
-    options.huber = 1.0;  // purely quadratic, nothing rejected: smooth in all parameters
+    options.huber = 1.0;  // quadratic cost without outliers: smooth in all parameters
     options.outlier = 1.0;
     const Pair at = moved(pair(), away);
     const PairSystem system = evaluate(at, options);
@@ -74,7 +74,8 @@ class PhotometricPairTest : public testing::Test {
         [&](const Eigen::VectorXd& x) { return Eigen::VectorXd::Constant(1, evaluate(moved(at, x), options).cost); },
         step);
     const Vector16d numeric = J.row(0).transpose();
-    // Image gradients are central differences and geometry is taken at the pattern's centre: 3 % of a block's size.
+    // Tolerance of 3 % of each block: image gradients are central differences, and the geometry is that of the
+    // pattern's centre.
     for (const int begin : {0, 3, 6, 8, 11, 14}) {
       const int size = begin % 8 == 6 ? 2 : 3;
       EXPECT_LT((system.g.segment(begin, size) - numeric.segment(begin, size)).norm(),
@@ -123,7 +124,7 @@ TEST_F(PhotometricPairTest, ResidualsVanishAtTheTruth) {
   const PairSystem system = evaluate(pair());
   ASSERT_GT(system.inliers, 80);
   EXPECT_EQ(system.outliers, 0);
-  // About half a grey level: bilinear interpolation of the target is all that is wrong.
+  // About half a grey level, due to the bilinear interpolation of the target.
   EXPECT_LT(std::sqrt(system.squares / system.inliers), 0.6 / 255);
 }
 
@@ -135,7 +136,7 @@ TEST_F(PhotometricPairTest, GradientMatchesCentralDifferencesWithPlanesOfTheHost
 }
 
 TEST_F(PhotometricPairTest, DepthTermsMatchCentralDifferences) {
-  // Offsets beside the truth, for planes that stay in the world and planes that do not.
+  // Offsets near the truth, for planes fixed in the world and for planes that move with the host.
   for (const bool in_world : {true, false}) {
     PhotometricOptions options;
     options.huber = 1.0;
@@ -165,10 +166,10 @@ TEST_F(PhotometricPairTest, DepthTermsMatchCentralDifferences) {
       EXPECT_GT(terms[i].H, 0.0);
     }
     EXPECT_LT(std::sqrt(difference), 0.05 * std::sqrt(size));
-    // Coupling with the keyframes: how the offsets' gradients change as these move.
+    // Coupling with the keyframes: derivatives of the offsets' gradients by the keyframes' parameters.
     Eigen::VectorXd step(16);
     step << 1e-4, 1e-4, 1e-4, 5e-5, 5e-5, 5e-5, 1e-3, 1e-3, 1e-4, 1e-4, 1e-4, 5e-5, 5e-5, 5e-5, 1e-3, 1e-3;
-    // All points as one, so that noise of single pixels is averaged: the sum of all offsets' coupling.
+    // The sum over all points, which averages the noise of single pixels.
     Eigen::VectorXd coupling = Eigen::VectorXd::Zero(16);
     for (const DepthTerms& t : terms) coupling += t.cross.cast<double>();
     const Eigen::MatrixXd J = test::central_differences(
@@ -180,7 +181,7 @@ TEST_F(PhotometricPairTest, DepthTermsMatchCentralDifferences) {
           return Eigen::VectorXd::Constant(1, sum);
         },
         step);
-    // Gauss-Newton leaves out second derivatives times residuals, which are small here.
+    // Gauss-Newton ignores second derivatives times residuals, which are small here.
     for (const int begin : {0, 3, 8, 11}) {
       EXPECT_LT((coupling.segment(begin, 3) - J.row(0).transpose().segment(begin, 3)).norm(),
                 0.2 * J.row(0).transpose().segment(begin, 3).norm())
@@ -204,7 +205,8 @@ TEST_F(PhotometricPairTest, DerivativesAreTakenAtTheLinearisedPoses) {
 }
 
 TEST_F(PhotometricPairTest, HostPoseIsObservedOnlyByPlanesOfTheWorld) {
-  // Both cameras moved together: with planes that move along nothing changes, with the world's planes the points do.
+  // Both cameras are moved together: nothing changes if the planes move with the host, but the points do if the planes
+  // are fixed in the world.
   const SE3 motion = SE3::exp((Vector6d() << 0.02, 0.01, -0.02, 0.005, -0.01, 0.01).finished());
   Pair together = pair();
   together.T_world_host = motion * together.T_world_host;

@@ -11,7 +11,7 @@ namespace {
 
 class PointActivationTest : public testing::Test {
  protected:
-  /// Keyframes on the room's path without any map; immature points of all but the newest, traced in all later ones.
+  /// Keyframes on the room's path without a map; immature points of all but the newest, traced in all later frames.
   PointActivationTest() {
     for (int i = 0; i < 4; ++i) {
       auto keyframe = std::make_shared<Keyframe>();
@@ -72,9 +72,9 @@ TEST_F(PointActivationTest, DensityIsControlled) {
   options.active_points = 60;
   const int few = activate_points(sparse, camera_, {}, options);
   EXPECT_GT(few, 10);
-  EXPECT_LE(few, 80);  // cells cut by the image's edge come on top
+  EXPECT_LE(few, 80);  // 60 plus partial cells at the image's edge
   EXPECT_GT(many, few);
-  // Only cells whose point did not come out well are free again.
+  // Only cells whose point could not be activated are free again.
   EXPECT_LT(activate_points(sparse, camera_, {}, options), few / 4);
 }
 

@@ -24,10 +24,10 @@ class WindowOptimizerTest : public testing::Test {
     options.window_points.points = points;
     options.window_points.depth_use = use;
     options.anchor.enabled = anchored;
-    // What the optimiser makes of a weight is asked, not what weight a keyframe's maker would give: it has seen the
-    // images and takes weight off a view that disagrees.
+    // A fixed weight, to test the optimiser alone: the weight by the keyframe maker depends on how well view and image
+    // agree.
     options.anchor.strength = 4.0;
-    // The map is the room itself: its edges are as good as an image's.
+    // The map is the room itself, so its edges are as accurate as those of an image.
     options.anchor.gradient_weight = options.window_points.gradient_weight;
     options.smoothing = 0.0;
     KeyframeMaker maker(options);
@@ -45,7 +45,7 @@ class WindowOptimizerTest : public testing::Test {
     return window;
   }
 
-  /// Estimated offsets off by some per cent of inverse depth.
+  /// Disturbs the estimated offsets by some per cent of the inverse depth.
   static void disturb_depths(Window& window) {
     Random random(9);
     for (const auto& keyframe : window.keyframes) {
@@ -69,7 +69,7 @@ class WindowOptimizerTest : public testing::Test {
     return std::sqrt(sum / std::max(1, n));
   }
 
-  /// Poses off by some millimetres and tenths of a degree, as tracking leaves them.
+  /// Disturbs the poses by some millimetres and tenths of a degree, similar to tracking errors.
   static void disturb(Window& window, std::size_t from) {
     Random random(4);
     for (std::size_t i = from; i < window.keyframes.size(); ++i) {
@@ -80,8 +80,7 @@ class WindowOptimizerTest : public testing::Test {
     }
   }
 
-  /// Largest distance [m] between the two windows' poses: has the optimum been reached that starts at the truth lead
-  /// to?
+  /// Largest distance [m] between corresponding poses of two windows.
   static double largest_difference(const Window& a, const Window& b) {
     double largest = 0.0;
     for (std::size_t i = 0; i < a.keyframes.size(); ++i) {
@@ -137,7 +136,7 @@ TEST_F(WindowOptimizerTest, PlacesFarFromTheOriginMakeNoDifference) {
 
 TEST_F(WindowOptimizerTest, FindsBrightness) {
   Window window = make_window(3, true);
-  // The middle keyframe's camera had a longer exposure.
+  // The middle keyframe was taken with a longer exposure.
   Keyframe& keyframe = *window.keyframes[1];
   for (cv::Vec4f& pixel : keyframe.gradient) {
     pixel[0] = 1.15F * pixel[0] + 0.02F;
@@ -159,7 +158,7 @@ TEST_F(WindowOptimizerTest, FindsBrightness) {
 
 TEST_F(WindowOptimizerTest, AWrongAnchorIsOutvoted) {
   Window window = make_window(5, true);
-  // One keyframe's rendered view shows another place: nearly all its points are outliers.
+  // One keyframe's rendered view is wrong: nearly all its points are outliers.
   for (WindowPoint& point : window.keyframes[2]->anchors[0].points) {
     for (float& intensity : point.intensity) intensity = 1.0F - intensity;
   }
@@ -239,7 +238,7 @@ TEST_F(WindowOptimizerTest, WhereImagesSayNothingKeyframesStayWhereTheyWereTrack
   std::vector<SE3> tracked;
   for (const auto& keyframe : window.keyframes) tracked.push_back(*keyframe->T_world_tracked);
   optimizer_.optimize(window, camera_);
-  // The oldest is held by the gauge too, as strongly: it ends in the middle.
+  // The gauge holds the oldest keyframe with the same strength, so it ends halfway.
   const Vector6d newest = (window.keyframes[1]->T_world_camera * tracked[1].inverse()).log();
   EXPECT_LT(newest.norm(), 1e-4);
   const Vector6d oldest = (window.keyframes[0]->T_world_camera * tracked[0].inverse()).log();
@@ -272,7 +271,7 @@ TEST_F(WindowOptimizerTest, FindsDisturbedDepthsAndPoses) {
 }
 
 TEST_F(WindowOptimizerTest, APriorHoldsDepthsWhereTheyAreNotSeen) {
-  // One keyframe: nothing but the prior says how far its points are.
+  // One keyframe: only the prior determines the depths of its points.
   Window window = make_window(1, true, DepthUse::prior);
   disturb_depths(window);
   optimizer_.optimize(window, camera_);
@@ -300,8 +299,8 @@ TEST_F(WindowOptimizerTest, CeresFindsNoBetterOptimum) {
 }
 
 TEST_F(WindowOptimizerTest, MarginalizedKeyframesStillHoldTheOthers) {
-  // Only the oldest keyframe is anchored; once it has gone, what it knew is all that holds the others in the world.
-  // Depth that moves with its keyframe gives them scale and no place.
+  // Only the oldest keyframe is anchored: after it is marginalised, only its prior holds the others in the world. Depth
+  // that moves with its keyframe determines the scale but not the position.
   std::map<bool, double> uncertainty;
   for (const bool kept : {true, false}) {
     Window window = make_window(4, true, DepthUse::prior);

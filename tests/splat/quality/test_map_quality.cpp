@@ -17,7 +17,7 @@ using test::CornerScene;
 using test::CornerViews;
 using testing::HasSubstr;
 
-/// The corner's images with poses or a camera that are not theirs.
+/// The corner's images with wrong poses or a wrong camera.
 class WrongViews : public CornerViews {
  public:
   WrongViews() : CornerViews(8) {}
@@ -64,7 +64,7 @@ TEST(JudgeMap, NamesFaultAndLikelyCause) {
       judge_map(low, {}, 0.9, GeometryDoubt{.hypothesis = {.inverted = true}, .as_given = 0.9, .instead = 0.1});
   EXPECT_THAT(inverted.verdict, HasSubstr("likely cause: the poses are inverted"));
   EXPECT_THAT(judge_map(even_views(10), {}, 0.34, std::nullopt).verdict, HasSubstr("a camera file that is not"));
-  EXPECT_TRUE(judge_map(even_views(10), {}, -1.0, std::nullopt).good);  // unknown
+  EXPECT_TRUE(judge_map(even_views(10), {}, -1.0, std::nullopt).good);  // negative: unknown
   auto off = even_views(10);
   for (ViewQuality& view : off) view.depth_error_share = 0.1;
   EXPECT_THAT(judge_map(off, {}, 0.1, std::nullopt).verdict, HasSubstr("10.0 % off the cloud's"));
@@ -127,7 +127,7 @@ TEST(CloudCoverage, CountsWhatNoImageSees) {
   PointCloud cloud = CornerScene().cloud(0.1);
   const CloudCoverage before = cloud_coverage(cloud, views);
   const std::size_t n = cloud.size();
-  // As many behind the cameras.
+  // The same number of points behind the cameras.
   for (std::size_t i = 0; i < n; ++i) {
     cloud.points.emplace_back(cloud.points[i].x(), cloud.points[i].y(), -5.0F - cloud.points[i].z());
     cloud.colors.push_back(cloud.colors[i]);
@@ -189,7 +189,7 @@ TEST(ColorConsistency, NamesWhatIsWrong) {
     ASSERT_TRUE(doubt);
     EXPECT_NEAR(doubt->hypothesis.focal, 0.9, 0.051) << doubt->hypothesis.words();
   }
-  {  // of another shape: nothing that is tried makes it fit
+  {  // a cloud of another shape: no hypothesis makes it fit
     WrongViews views;
     PointCloud other = cloud;
     for (Eigen::Vector3f& p : other.points) p = Eigen::Vector3f(p.y(), 0.7F * p.x(), 1.5F + 0.5F * p.z() * p.x());
@@ -207,11 +207,11 @@ TEST(ColorConsistency, NamesWhatIsWrong) {
   {
     WrongViews views;
     PointCloud off = cloud;
-    const Eigen::Vector3f shift(0.2F, 0.1F, 0.0F);  // along the wall: towards it looks like another focal length
+    const Eigen::Vector3f shift(0.2F, 0.1F, 0.0F);  // along the wall; towards it looks like another focal length
     for (Eigen::Vector3f& p : off.points) p += shift;
     const auto doubt = geometry_doubt(ColorConsistency(off, views));
     ASSERT_TRUE(doubt);
-    // Along the wall a pixel is 3 cm there; across it, cameras that look straight at it hardly tell.
+    // Along the wall a pixel is 3 cm; the offset in the viewing direction is hardly observable.
     const Eigen::Vector3d error = doubt->hypothesis.offset - shift.cast<double>();
     EXPECT_LT(error.head<2>().norm(), 0.05) << doubt->hypothesis.words();
   }

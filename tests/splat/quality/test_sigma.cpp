@@ -28,7 +28,7 @@ double sigma_of(const SigmaSample& s, const SigmaModel& m) {
       std::hypot(static_cast<double>(m.depth_share) * s.depth, static_cast<double>(m.open_share) * s.open * s.depth));
 }
 
-/// Errors drawn from a model, a few of them (share) from another surface.
+/// Errors drawn from a model; a share `outliers` of them come from another surface.
 std::vector<SigmaSample> drawn_from(const SigmaModel& model, double outliers, std::uint64_t seed) {
   Random random(seed);
   std::vector<SigmaSample> samples(30000);
@@ -53,7 +53,7 @@ TEST(SigmaCalibration, FindsTheModelThatErrorsWereDrawnFrom) {
   EXPECT_NEAR(found.open_share, truth.open_share, 0.2F * truth.open_share);
 }
 
-// Of every kind of pixel: those whose sigma is mostly spread, mostly slope, or neither.
+// For every kind of pixel: those whose sigma is mostly spread, mostly slope, or neither.
 TEST(SigmaCalibration, TwoSigmasHoldWhatANormalDistributionsDo) {
   for (const double outliers : {0.0, 0.02}) {
     const auto samples = drawn_from({0.7F, 0.25F, 0.0015F, 0.05F}, outliers, 2);
@@ -133,7 +133,7 @@ TEST(SigmaModel, LinesGoThereAndBack) {
   EXPECT_THROW(SigmaModel::from_lines({"sigma_spread -1"}), InputError);
 }
 
-// Two walls, the nearer one covering half of a pixel column: expected depth lies between them, surface depth on one.
+// Two walls, the nearer one with an opacity of 0.6: expected depth lies between them, surface depth on one of them.
 TEST(SurfaceDepth, LiesOnASurfaceWhereTwoMeet) {
   Gaussians g;
   g.resize(2);
@@ -142,7 +142,7 @@ TEST(SurfaceDepth, LiesOnASurfaceWhereTwoMeet) {
     g.log_scales[3 * i + 2] = std::log(0.01F);
     g.positions[3 * i + 2] = i == 0 ? 1.0F : 2.0F;
     g.rotations[4 * i] = 1.0F;
-    g.opacity_logits[i] = i == 0 ? 0.4F : 4.0F;  // 0.6, then nearly all of the rest
+    g.opacity_logits[i] = i == 0 ? 0.4F : 4.0F;  // opacity 0.6, then nearly 1
   }
   const Camera camera{9, 9, 40.0, 40.0, 4.0, 4.0};
   const auto context = compute::Context::open();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Gradients of both shells against the twin's.
+// Gradients of both shells compared with the double-precision reference (the twin).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ Result run(Rasterizer& rasterizer, const Case& c, const reference::ImageGradient
   return result;
 }
 
-// Random gradients of images, zero at pixels too near to a decision for float and double to agree on it.
+// Random gradients of the images; zero at pixels where float and double may decide differently.
 reference::ImageGradients make_given(const Case& c, const std::vector<double>& margin) {
   Random random(41);
   reference::ImageGradients given;

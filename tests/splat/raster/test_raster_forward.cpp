@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Images of both shells against the twin, and against what can be worked out by hand.
+// Images of both shells compared with the double-precision reference (the twin) and with values computed by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace odosplat {
 namespace {
 
-// Margins below this are within float32's reach of a decision; at most this share of pixels may lie there.
+// At margins below `band` float32 may decide differently from double; at most this share of pixels may be affected.
 constexpr double band = 2e-3;
 constexpr double band_share = 0.12;
 
@@ -48,7 +48,7 @@ TEST_P(RasterForward, EqualsTwinOnAllScenes) {
         if (request.sigma) {
           EXPECT_EQ(count_different(truth.sigma, images.sigma, truth.margin, band, 5e-4), 0u);
         }
-        // In the band a Gaussian of alpha 1/255 may be in or out: bounded, and finite everywhere.
+        // In the band a Gaussian of alpha 1/255 may be included or not: differences are bounded, and all values finite.
         EXPECT_EQ(count_different(truth.alpha, images.alpha, truth.margin, -1.0, 0.02), 0u);
         for (const std::vector<float>* image : {&images.color, &images.depth, &images.alpha, &images.sigma}) {
           EXPECT_TRUE(std::all_of(image->begin(), image->end(), [](float v) { return std::isfinite(v); }));
@@ -58,7 +58,7 @@ TEST_P(RasterForward, EqualsTwinOnAllScenes) {
   }
 }
 
-// Thin ellipses over many tiles: some rows of tiles hold no pixel centre of theirs although they pass through.
+// Thin ellipses over many tiles: in some rows of tiles they contain no pixel centre although they pass through.
 TEST_P(RasterForward, NeedlesOverManyTilesEqualTwin) {
   RasterScene scene = needle_scene();
   scene.camera = {150, 118, 160.0, 172.0, 70.7, 60.9};
@@ -115,7 +115,7 @@ TEST_P(RasterForward, RoundGaussianOnPixelCentreIsSymmetricAboutIt) {
   Rasterizer rasterizer = make_rasterizer(GetParam());
   RasterScene scene{"pixel", {}, {}, SE3()};
   scene.camera = {33, 17, 50.0, 50.0, 16.0, 8.0};
-  // On the optical axis 2 m away: at pixel (16, 8); 0.04 m are one pixel there.
+  // On the optical axis at 2 m: it projects to pixel (16, 8), where 0.04 m are one pixel.
   scene.gaussians.resize(1);
   scene.gaussians.positions = {0.0f, 0.0f, 2.0f};
   scene.gaussians.log_scales.assign(3, std::log(0.04f));
@@ -138,8 +138,8 @@ TEST_P(RasterForward, RoundGaussianOnPixelCentreIsSymmetricAboutIt) {
   EXPECT_EQ(images.depth[0], 0.0f);
 }
 
-// White ahead, black beside it: the black one is farther from the camera, but nearer along its axis until the camera
-// turns towards it.
+// A white Gaussian ahead, a black one beside it: the black one is farther from the camera, but has the smaller depth
+// until the camera turns towards it.
 TEST_P(RasterForward, WhatHidesWhatStaysByDistanceWhenTheCameraTurns) {
   RasterScene scene{"turned", {}, {33, 33, 20.0, 20.0, 16.0, 16.0}, SE3()};
   Gaussians& g = scene.gaussians;
@@ -149,7 +149,7 @@ TEST_P(RasterForward, WhatHidesWhatStaysByDistanceWhenTheCameraTurns) {
   g.rotations = {1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F};
   g.opacity_logits = {6.0F, 6.0F};
   g.sh = {1.7F, 1.7F, 1.7F, -1.7F, -1.7F, -1.7F};
-  // Brightness on the ray half way between the two.
+  // Brightness on the ray halfway between the two.
   const Eigen::Vector3d ray = Eigen::Vector3d(0.0, 0.0, 2.0).normalized() + Eigen::Vector3d(1.4, 0.0, 1.9).normalized();
   const auto brightness = [&](BlendOrder order, double turn) {
     Rasterizer rasterizer = make_rasterizer(GetParam(), false, DepthKind::automatic, order);
@@ -202,7 +202,7 @@ TEST_P(RasterForward, RayPlaneDepthOfSlantedDiscsHasNoBias) {
   };
   EXPECT_LT(bias(DepthKind::ray_plane, DepthMode::expected), 0.001);
   EXPECT_LT(bias(DepthKind::ray_plane, DepthMode::median), 0.001);
-  // The same discs with the depth of their centres: what the ray plane is for.
+  // With the depth of their centres the same discs are biased.
   EXPECT_GT(bias(DepthKind::centre, DepthMode::expected), 0.004);
 }
 
@@ -213,7 +213,7 @@ TEST_P(RasterForward, ImagesAreTheSameBitsTwice) {
   request.color = true;
   request.sigma = true;
   const HostImages a = render(first, test_context(), scene, request);
-  (void)render(second, test_context(), needle_scene(), request);  // other contents in the second's buffers
+  (void)render(second, test_context(), needle_scene(), request);  // fills the second's buffers with other contents
   const HostImages b = render(second, test_context(), scene, request);
   EXPECT_EQ(a.color, b.color);
   EXPECT_EQ(a.depth, b.depth);

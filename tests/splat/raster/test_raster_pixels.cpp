@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// Some pixels of an image: the same bits as in the whole one.
+// Rendering of some pixels: the same bits as in the whole image.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -16,7 +16,7 @@ namespace {
 
 class RasterPixels : public testing::TestWithParam<Shell> {};
 
-// Corners, one pixel twice, and others at random.
+// The corners, one of them twice, and random pixels.
 std::vector<cv::Point> some_pixels(const Camera& camera, int random_ones, std::uint64_t seed) {
   std::vector<cv::Point> pixels{
       {0, 0}, {camera.width - 1, camera.height - 1}, {0, camera.height - 1}, {camera.width - 1, 0}, {0, 0}};
@@ -79,7 +79,7 @@ TEST_P(RasterPixels, AreThoseOfTheWholeImageToTheBit) {
   }
 }
 
-// Large enough that most Gaussians touch no wanted pixel and several items select them.
+// So large that most Gaussians reach no wanted pixel and several work-items select them.
 TEST_P(RasterPixels, MostGaussiansAreLeftOut) {
   RasterScene scene = overlapping_scene(9000, 0, 21);
   for (float& s : scene.gaussians.log_scales) s -= 3.0F;

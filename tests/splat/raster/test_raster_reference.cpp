@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// The twin itself: its gradients against finite differences of its images, decisions held.
+// The double-precision reference itself: its gradients compared with finite differences of its images, with fixed
+// decisions.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-// The same bits whatever the number of the device's threads: PoCL takes that from the environment when it starts, so
-// each count is a process of its own.
+// The result has the same bits for any number of device threads. PoCL reads that number from the environment when it
+// starts, so each number is tested in a separate process.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -17,7 +17,7 @@
 namespace odosplat {
 namespace {
 
-// FNV-1a over the bits.
+// Adds the bits to an FNV-1a hash.
 void add_to_digest(std::uint64_t& digest, const std::vector<float>& values) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
   for (std::size_t i = 0; i < values.size() * sizeof(float); ++i) digest = (digest ^ bytes[i]) * 1099511628211ull;

@@ -16,7 +16,7 @@ constexpr auto min_transmittance = static_cast<double>(MIN_TRANSMITTANCE);
 constexpr auto min_ratio = static_cast<double>(MIN_PLANE_RATIO);
 constexpr auto surface_spread = static_cast<double>(SURFACE_SPREAD);
 
-// A Gaussian at a pixel.
+// Values of a Gaussian at a pixel.
 struct Sample {
   double dx, dy, alpha, ratio, z;
 };
@@ -35,7 +35,7 @@ Sample sample_at(const Splat& s, double x, double y) {
 std::vector<std::size_t> near_to_far(const std::vector<Splat>& splats) {
   std::vector<std::size_t> order(splats.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  // The device sorts in float32: equal ones keep the order of the Gaussians.
+  // Sorted in float32 as on the device: Gaussians with equal keys keep their order.
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return static_cast<float>(splats[a].far) < static_cast<float>(splats[b].far);
   });
@@ -44,7 +44,7 @@ std::vector<std::size_t> near_to_far(const std::vector<Splat>& splats) {
 
 double relative(double value, double threshold) { return std::abs(value / threshold - 1.0); }
 
-// Decides which Gaussians make up the pixel; returns the smallest margin.
+// Decides which Gaussians contribute to the pixel; returns the smallest margin.
 double decide(const std::vector<Splat>& splats, const std::vector<std::size_t>& order, double x, double y,
               std::vector<Contribution>& pixel) {
   double margin = 1.0;
@@ -168,7 +168,7 @@ std::vector<std::array<double, splat_values>> composite_backward(const std::vect
       before[k + 1] = before[k] * (1.0 - alpha);
     }
     const double covered = 1.0 - before.back();
-    // Every image is a sum over w of alpha (1), depth and colour; expected depth is a quotient of two of them.
+    // The images are sums over w of 1 (alpha), depth and colour; expected depth is the quotient of two of them.
     double d_one = given.alpha.empty() ? 0.0 : given.alpha[i];
     double d_weighted = 0.0, d_median = 0.0;
     if (!given.depth.empty()) {
@@ -181,7 +181,7 @@ std::vector<std::array<double, splat_values>> composite_backward(const std::vect
         d_weighted = given.depth[i];
       }
     }
-    double behind = 0.0;  // value of what lies behind, were it seen alone
+    double behind = 0.0;  // value composited from the Gaussians behind
     for (std::size_t k = pixel.size(); k-- > 0;) {
       const Contribution& c = pixel[k];
       const Splat& s = splats[c.gaussian];

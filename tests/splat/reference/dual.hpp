@@ -8,8 +8,8 @@
 
 namespace odosplat::reference {
 
-/// A number with its derivatives with respect to N inputs (forward-mode differentiation): the twin's projection is
-/// written once, and its gradient follows without a second derivation by hand.
+/// A number with its derivatives by N inputs (forward-mode differentiation), so that the reference's projection needs
+/// no separately derived gradient.
 template <std::size_t N>
 struct Dual {
   double value = 0.0;

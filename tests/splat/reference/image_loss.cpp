@@ -35,7 +35,7 @@ Window window_at(int x, int y, int width, int height) {
   return window;
 }
 
-/// SSIM of one window and its gradient by every rendered pixel in it, added to `gradient` with a factor.
+/// SSIM of one window; adds `factor` times its gradient by every rendered pixel in it to `gradient`.
 double add_window(const Window& window, const double* x, const double* y, double factor, double* gradient) {
   double mx = 0.0;
   double my = 0.0;

@@ -6,8 +6,8 @@
 
 namespace odosplat::reference {
 
-/// Loss of the trainer in double precision, written as the definition says: for every pixel the 11 x 11 window itself,
-/// no separation. Images planar [3 x height x width].
+/// Loss of the trainer in double precision, implemented from its definition: the full 11 x 11 window for every pixel,
+/// not separated. Images are planar [3 x height x width].
 struct ImageLossResult {
   double loss = 0.0;
   double l1 = 0.0;

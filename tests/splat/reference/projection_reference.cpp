@@ -167,7 +167,7 @@ Splat project_one(const Scene& scene, std::size_t g, const Camera& camera, const
     slope_v = ((a + widening) * along_v - b * along_u) / plane_det / z;
   }
 
-  // Direction from the camera's centre, -W^T t, to the Gaussian; W^T p is that vector as well.
+  // Direction from the camera's centre, -W^T t, to the Gaussian; it equals W^T p.
   Vector3 direction = product(transposed(W), p);
   const D length = sqrt(dot(direction, direction));
   for (D& x : direction) x = x / length;

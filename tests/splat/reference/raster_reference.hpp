@@ -11,8 +11,9 @@
 #include "odosplat/splat/gaussians.hpp"
 #include "odosplat/splat/raster/rasterizer.hpp"
 
-/// Double-precision twin of the rasteriser: the same definitions, written to be read, without tiles, sorting by parts,
-/// square roots of covariances or polynomials for exp. Every Gaussian is tried at every pixel.
+/// Double-precision reference of the rasteriser (the twin): the same definitions, implemented for readability, without
+/// tiles, sorting by parts, square roots of covariances or polynomials for exp. Every Gaussian is evaluated at every
+/// pixel.
 namespace odosplat::reference {
 
 /// Gaussians in double; layouts as in odosplat::Gaussians.
@@ -27,13 +28,13 @@ struct Scene {
 
 /// Inputs of a Gaussian's projection: position 0..2, log scale 3..5, rotation 6..9, logit 10, pose twist 11..16.
 constexpr std::size_t projection_inputs = 17;
-/// What compositing reads of a Gaussian: u, v, conic A B C (q = A dx^2 + 2 B dx dy + C dy^2), ln opacity, depth, slopes
-/// of depth over u and v, red, green, blue.
+/// Values of a splat for compositing: u, v, conic A B C (q = A dx^2 + 2 B dx dy + C dy^2), ln opacity, depth, slopes of
+/// depth over u and v, red, green, blue.
 constexpr std::size_t splat_values = 12;
 
 struct Splat {
   bool drawn = false;
-  double far = 0.0;  // what it is sorted by, smallest first
+  double far = 0.0;  // sort key, smallest first
   std::array<double, splat_values> value{};
   /// d value[i] / d input[j].
   std::array<std::array<double, projection_inputs>, splat_values> jacobian{};
@@ -42,29 +43,28 @@ struct Splat {
   std::array<bool, 3> lit{};
 };
 
-/// Source: rasterizer.hpp. The twist is the left perturbation of T_camera_world, at 0.
+/// Definitions as in rasterizer.hpp. The twist is the left perturbation of T_camera_world, at 0.
 std::vector<Splat> project(const Scene& scene, const Camera& camera, const SE3& T_world_camera,
                            const RasterizerOptions& options, const RenderRequest& request);
 
 /// One Gaussian at one pixel, with the decisions that make the image discontinuous.
 struct Contribution {
   std::size_t gaussian = 0;
-  bool capped = false;   // alpha at MAX_ALPHA
-  bool bounded = false;  // depth at its bound
-  bool median = false;   // takes the transmittance below 0.5
+  bool capped = false;   // alpha is limited to MAX_ALPHA
+  bool bounded = false;  // depth is limited
+  bool median = false;   // the transmittance falls below 0.5 here
 };
-/// Per pixel, from near to far.
+/// For each pixel, from near to far.
 using Decisions = std::vector<std::vector<Contribution>>;
 
-/// Images as in RenderOutput. margin: how near a pixel is to another decision (the smallest relative distance of an
-/// alpha, a transmittance or a depth ratio to its threshold): small margins are where float and double may rightly
-/// differ.
+/// Images as in RenderOutput. margin: how close a pixel is to a different decision (the smallest relative distance of
+/// an alpha, a transmittance or a depth ratio to its threshold); where it is small, float and double may differ.
 struct Images {
   int width = 0, height = 0;
   std::vector<double> color, depth, alpha, sigma, margin;
 };
 
-/// frozen: take these decisions instead of making them (for finite differences). made: where to note those made.
+/// frozen: decisions to use instead of new ones (for finite differences). made: receives the decisions made.
 Images composite(const std::vector<Splat>& splats, const Camera& camera, const RenderRequest& request,
                  const Decisions* frozen = nullptr, Decisions* made = nullptr);
 
@@ -73,14 +73,14 @@ struct ImageGradients {
   std::vector<double> color, depth, alpha;
 };
 
-/// dL/d splat values, from the back of each pixel to its front.
+/// dL/d splat values, computed from the back of each pixel to its front.
 std::vector<std::array<double, splat_values>> composite_backward(const std::vector<Splat>& splats, const Camera& camera,
                                                                  const RenderRequest& request,
                                                                  const Decisions& decisions,
                                                                  const ImageGradients& given);
 
 struct Gradients {
-  Scene scene;  // attribute by attribute
+  Scene scene;  // gradients of all attributes
   Vector6d pose = Vector6d::Zero();
 };
 Gradients project_backward(const Scene& scene, const std::vector<Splat>& splats, const RenderRequest& request,

@@ -54,7 +54,7 @@ TEST_P(AdamSize, EqualsReference) {
   EXPECT_EQ(adam.steps(), 20);
 }
 
-// 12 floats a row: sizes below, at and beyond the 16 elements of a work-item.
+// 12 floats per row: sizes below, near and above the 16 elements of a work-item.
 INSTANTIATE_TEST_SUITE_P(Rows, AdamSize, testing::Values(1, 4, 5, 333));
 
 TEST(Adam, NoElementsIsNoError) {

@@ -69,7 +69,7 @@ TEST(Checkpoint, DamageIsFound) {
   EXPECT_THROW(Checkpoint::read(scratch / "missing"), InputError);
 }
 
-/// A run with everything that has state: depth, anchors, exposures, densification.
+/// Options of a run in which everything has state: depth, anchors, exposures, densification.
 TrainerOptions full_options(DensifyMethod method) {
   TrainerOptions options;
   options.iterations = 40;
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Resume,
                          testing::Values(DensifyMethod::none, DensifyMethod::relocate, DensifyMethod::split),
                          [](const auto& method) { return name_of(method.param); });
 
-// The checksum is right: nothing but the numbers themselves tells.
+// With a valid checksum only the values themselves show that they are wrong.
 TEST(Resume, AbsurdNumbersAreRefused) {
   const auto context = compute::Context::open();
   const Gaussians initial = gaussians_from_cloud(CornerScene().cloud(0.2), {});

@@ -47,13 +47,13 @@ void expect_consistent(const TrainingRows& rows) {
   for (const float v : rows.gaussians.opacity_logits) EXPECT_TRUE(std::isfinite(v));
 }
 
-// What N Gaussians in one place let through at distance r of the centre, against the one they replace.
+// Opacity of N Gaussians at the same place, compared with that of the Gaussian they replace.
 TEST(Relocate, SharedPlaceLooksLikeBefore) {
   for (const double opacity : {0.3, 0.8}) {
     for (const int n : {2, 3, 5}) {
       const double shared = 1.0 - std::pow(1.0 - opacity, 1.0 / n);
       const double ratio = relocated_size_ratio(opacity, shared, n);
-      double before = 0.0;  // integral of alpha over a line through the centre, what the formula keeps
+      double before = 0.0;  // integral of alpha along a line through the centre, which the formula preserves
       double after = 0.0;
       constexpr double h = 1e-3;
       for (double r = 0.0; r < 8.0; r += h) {
@@ -73,16 +73,16 @@ TEST(Relocate, DeadMoveToTheLivingInTheirPlane) {
   Random random(1);
   relocate(rows, options, random);
   expect_consistent(rows);
-  ASSERT_EQ(rows.size(), 20U);  // without a budget none are added
+  ASSERT_EQ(rows.size(), 20U);  // without a budget no Gaussians are added
   int moved = 0;
   for (const std::size_t i : {3U, 7U, 11U}) {
     EXPECT_GT(opacity_of(rows, i), options.dead_opacity);
-    EXPECT_NEAR(rows.gaussians.positions[3 * i + 2], 1.0F, 1e-6F);  // the surface stays where it is
+    EXPECT_NEAR(rows.gaussians.positions[3 * i + 2], 1.0F, 1e-6F);  // it stays on the surface
     EXPECT_EQ(rows.from[i], -1);
     const float x = rows.gaussians.positions[3 * i];
-    EXPECT_LT(std::abs(x - std::round(x)), 0.1F);  // near a living one
+    EXPECT_LT(std::abs(x - std::round(x)), 0.1F);  // near a Gaussian that is not dead
     moved += std::abs(x - static_cast<float>(i)) > 0.5F ? 1 : 0;
-    // The anchor went along.
+    // The anchor is moved too.
     EXPECT_EQ(rows.anchors[8 * i], x);
   }
   EXPECT_GE(moved, 2);
@@ -116,14 +116,14 @@ TEST(CloneAndSplit, SmallAreClonedLargeAreSplitDeadAreRemoved) {
   TrainingRows rows = discs(5);
   rows.gaussians.log_scales[3 * 1] = std::log(0.5F);   // large
   rows.gaussians.opacity_logits[3] = logit(0.001);     // dead
-  rows.gaussians.log_scales[3 * 4] = std::log(20.0F);  // absurd
+  rows.gaussians.log_scales[3 * 4] = std::log(20.0F);  // far too large
   DensifyOptions options;
   options.method = DensifyMethod::split;
   Random random(4);
   clone_and_split(rows, options, {0.1, 5.0}, {1.0F, 1.0F, 1e-6F, 1e-6F, 1e-6F}, {10.0F, 10.0F, 10.0F, 10.0F, 10.0F},
                   random);
   expect_consistent(rows);
-  ASSERT_EQ(rows.size(), 5U);  // 0, 1 and 2 stay, 0 is cloned, 1 is halved
+  ASSERT_EQ(rows.size(), 5U);  // 0, 1 and 2 are kept, 0 is cloned, 1 is split
   EXPECT_EQ(rows.gaussians.positions[0], rows.gaussians.positions[3 * 3]);
   EXPECT_NEAR(rows.gaussians.log_scales[3 * 1], std::log(0.5F / 1.6F), 1e-5F);
   EXPECT_NEAR(rows.gaussians.log_scales[3 * 4], std::log(0.5F / 1.6F), 1e-5F);
@@ -148,10 +148,10 @@ TEST(CloneAndSplit, BudgetGoesToTheMostPulled) {
 TEST(DensifySizes, HoldFromATripodToABuilding) {
   const DensifyOptions options;
   constexpr double pixel = 0.008;                                             // [m]
-  EXPECT_NEAR(densify_sizes(options, 1.2, pixel, true).split, 0.012, 1e-12);  // a room: by the extent
+  EXPECT_NEAR(densify_sizes(options, 1.2, pixel, true).split, 0.012, 1e-12);  // a room: by the cameras' extent
   EXPECT_NEAR(densify_sizes(options, 0.01, pixel, true).split, 0.5 * pixel, 1e-12);
   EXPECT_NEAR(densify_sizes(options, 40.0, pixel, true).split, 4.0 * pixel, 1e-12);
-  EXPECT_NEAR(densify_sizes(options, 0.01, 0.0, true).split, 1e-4, 1e-12);  // nothing seen: nothing known
+  EXPECT_NEAR(densify_sizes(options, 0.01, 0.0, true).split, 1e-4, 1e-12);  // size of a pixel unknown
   EXPECT_TRUE(std::isinf(densify_sizes(options, 0.01, pixel, true).largest));
   EXPECT_NEAR(densify_sizes(options, 0.01, pixel, false).largest, 0.005, 1e-12);
 }

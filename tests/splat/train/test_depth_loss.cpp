@@ -18,7 +18,7 @@ struct DepthPair {
   std::vector<float> rendered, target, weight;
 };
 
-/// Depths 1..4 m, errors from nothing to far beyond the cut, a tenth of either image without depth.
+/// Depths 1..4 m, errors from zero to far beyond the cut; a tenth of the pixels of each image has no depth.
 DepthPair make_pair(std::size_t pixels, std::uint64_t seed) {
   Random random(seed);
   DepthPair pair;
@@ -66,7 +66,7 @@ TEST_P(DepthLossSize, GradientIsFiniteDifferenceOfDefinition) {
       const double rho = std::hypot((rendered[i] - t) / t, knee);
       sum += static_cast<double>(pair.weight[i]) * std::min(rho, options.cut);
       weights += static_cast<double>(pair.weight[i]);
-      if (std::abs(rho - options.cut) < 1e-5) continue;  // on the cut either is right
+      if (std::abs(rho - options.cut) < 1e-5) continue;  // at the cut both are valid
     }
     const double kept = rendered[i];
     constexpr double h = 1e-6;
@@ -75,7 +75,7 @@ TEST_P(DepthLossSize, GradientIsFiniteDifferenceOfDefinition) {
     rendered[i] = kept - h;
     const double minus = reference_loss(rendered, pair, options);
     rendered[i] = kept;
-    // A pixel without depth has no gradient, though a step would give it depth.
+    // A pixel without depth has gradient 0, although the finite difference would give it depth.
     const double expected = both ? (plus - minus) / (2.0 * h) : 0.0;
     EXPECT_NEAR(slopes[i], expected, 1e-3 * scale) << "pixel " << i;
   }

@@ -42,7 +42,7 @@ TEST(Exposures, LearnGainAndOffsetOfAView) {
   compute::Buffer<float> exposed;
   for (int step = 0; step < 2000; ++step) {
     exposures.apply(1, rendered, exposed);
-    std::vector<float> slope = exposed.download();  // of the mean squared difference
+    std::vector<float> slope = exposed.download();  // gradient of the mean squared difference
     for (std::size_t i = 0; i < slope.size(); ++i) {
       const double target = gains[i / plane] * static_cast<double>(image[i]) + offsets[i / plane];
       slope[i] = static_cast<float>(2.0 * (static_cast<double>(slope[i]) - target) / static_cast<double>(slope.size()));
@@ -55,7 +55,7 @@ TEST(Exposures, LearnGainAndOffsetOfAView) {
     EXPECT_NEAR(learnt[c], gains[c], 0.01);
     EXPECT_NEAR(learnt[3 + c], offsets[c], 0.01);
   }
-  EXPECT_EQ(exposures.of(0)[0], 1.0);  // another view is untouched
+  EXPECT_EQ(exposures.of(0)[0], 1.0);  // the other view is unchanged
 }
 
 TEST(Exposures, GradientPassesThroughTheGain) {

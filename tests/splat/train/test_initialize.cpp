@@ -80,7 +80,7 @@ TEST(GaussiansFromCloud, SmoothingTakesOutNoise) {
 }
 
 TEST(GaussiansFromCloud, SmoothingKeepsAStep) {
-  // Two parallel planes 5 cm apart that meet at an edge: no point may wander to the other.
+  // Two parallel planes 5 cm apart, next to each other: no point may be moved to the other one.
   PointCloud cloud;
   for (int y = -10; y <= 10; ++y)
     for (int x = -10; x <= 10; ++x)
@@ -99,7 +99,7 @@ TEST(GaussiansFromCloud, RandomShapeIsSeeded) {
   EXPECT_EQ(a.log_scales, b.log_scales);
   options.seed = 2;
   EXPECT_NE(gaussians_from_cloud(plane_cloud(0.0), options).rotations, a.rotations);
-  // Rotations are spread evenly: the mean of the turned z axis goes to zero.
+  // Rotations are uniformly distributed: the mean of the rotated z axes is near zero.
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   for (std::size_t i = 0; i < a.size(); ++i) mean += short_axis(a, i) / static_cast<float>(a.size());
   EXPECT_LT(mean.norm(), 0.08F);
@@ -119,7 +119,7 @@ TEST(GaussiansFromCloud, BudgetIsKept) {
 TEST(GaussiansFromCloud, TinyCloudsGiveFiniteGaussians) {
   for (std::size_t n : {1U, 2U, 3U}) {
     PointCloud cloud;
-    cloud.points.assign(n, Eigen::Vector3f(1, 2, 3));  // all in one place
+    cloud.points.assign(n, Eigen::Vector3f(1, 2, 3));  // all at the same place
     for (const InitialShape shape : {InitialShape::discs, InitialShape::round}) {
       InitializeOptions options;
       options.shape = shape;

@@ -15,7 +15,7 @@
 namespace odosplat {
 namespace {
 
-/// Smooth picture with noise, values about 0..1 [3 x height x width].
+/// Smooth image with noise, values about 0..1 [3 x height x width].
 std::vector<float> make_image(int width, int height, std::uint64_t seed, double noise) {
   Random random(seed);
   std::vector<float> image;
@@ -50,7 +50,8 @@ TEST(ReferenceLoss, GradientIsFiniteDifference) {
 }
 
 TEST(ReferenceLoss, WindowIsCentred) {
-  // Both images are symmetric under a turn by 180 degrees; with a centred window the gradient has the same symmetry.
+  // Both images are symmetric under a rotation by 180 degrees; with a centred window the gradient has the same
+  // symmetry.
   constexpr std::size_t width = 13;
   constexpr std::size_t height = 13;
   std::vector<double> rendered(3 * width * height, 0.2);
@@ -61,8 +62,8 @@ TEST(ReferenceLoss, WindowIsCentred) {
     EXPECT_NEAR(result.gradient[i], result.gradient[width * height - 1 - i], 1e-15);
 }
 
-// The kernel takes variances as E[x^2] - E[x]^2 in float: off by up to 2^-24 where values are below 1, which is 7e-5 of
-// the constant 9e-4 that they stand beside in SSIM. That is the worst of one window; means over an image are closer.
+// The kernel computes variances as E[x^2] - E[x]^2 in float: for values below 1 the error is up to 2^-24, which is 7e-5
+// of the constant 9e-4 added to them in SSIM. This is the worst case of one window; means over an image are closer.
 constexpr double window_error = 7e-5;
 
 class ImageLossSize : public testing::TestWithParam<std::pair<int, int>> {};
@@ -87,7 +88,8 @@ TEST_P(ImageLossSize, EqualsReference) {
     EXPECT_NEAR(value.ssim, expected.ssim, window_error);
     const std::vector<float> got = gradient.download();
     ASSERT_EQ(got.size(), expected.gradient.size());
-    // The gradient is a sum of terms that cancel, each up to 2 / C2 of the weight: four roundings of such a term.
+    // The gradient is a sum of terms that cancel, each up to 2 / C2 of the weight; tolerance: four roundings of such a
+    // term.
     const double rounding = 4.0 * 6e-8 * (2.0 / 9e-4) * 0.2 / (3.0 * width * height);
     for (std::size_t i = 0; i < got.size(); ++i)
       ASSERT_NEAR(static_cast<double>(got[i]), expected.gradient[i], rounding) << "value " << i;

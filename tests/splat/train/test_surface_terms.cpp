@@ -43,7 +43,7 @@ TEST(SurfaceTerms, GradientsAreFiniteDifferencesAndAreAdded) {
   const auto context = compute::Context::open();
   for (const std::size_t n : {1U, 63U, 65U}) {
     const std::vector<float> anchors = surface_anchors(random_discs(n, 1));
-    const Gaussians g = random_discs(n, 2);  // elsewhere, turned otherwise
+    const Gaussians g = random_discs(n, 2);  // at other positions and with other rotations
     const SurfaceTermsOptions options{0.3, 0.7, 0.2};
     SurfaceTerms terms(context, options);
     DeviceGaussians device, gradients;

@@ -25,7 +25,7 @@ namespace {
 using test::CornerScene;
 using test::CornerViews;
 
-/// Discs on the corner with every colour grey: all of it is to be learnt.
+/// Discs on the corner with all colours grey, so that the colours have to be learnt.
 Gaussians grey_corner(double spacing) {
   PointCloud cloud = CornerScene().cloud(spacing);
   cloud.colors.clear();
@@ -49,7 +49,7 @@ Gaussians train(int iterations, std::uint64_t seed) {
   return trainer.gaussians();
 }
 
-/// FNV-1a over the bits of all attributes.
+/// FNV-1a hash of the bits of all attributes.
 std::uint64_t hash(const Gaussians& g) {
   std::uint64_t h = 0xcbf29ce484222325ULL;
   for (const auto* part : {&g.positions, &g.log_scales, &g.rotations, &g.opacity_logits, &g.sh}) {
@@ -86,7 +86,7 @@ TEST(Trainer, LearnsColourAndKeepsDepth) {
   }
   EXPECT_LT(last, 0.25 * first);
 
-  // Judged between the poses trained on.
+  // Evaluated at a pose between the training poses.
   const SE3 T_world_camera = scene.T_world_camera(5);
   const auto before =
       GaussianView(context, initial, GaussianViewOptions()).render(scene.camera, T_world_camera, {true, false});
@@ -100,7 +100,8 @@ TEST(Trainer, LearnsColourAndKeepsDepth) {
   const DepthImage truth = scene.depth(T_world_camera);
   const double rmse_before = test::depth_rmse(before.depth, truth, valid_before);
   const double rmse_after = test::depth_rmse(after.depth, truth, valid_after);
-  // Half of this small image is within a disc of the fold between wall and floor, where discs of one colour grow.
+  // Half of this small image is within a disc's size of the edge between wall and floor, where discs of one colour
+  // grow.
   EXPECT_LT(rmse_after, 1.3 * rmse_before);
   EXPECT_LT(median_error(after.depth, truth), 0.0015);
   EXPECT_GE(valid_after, valid_before - 0.002);
@@ -113,7 +114,7 @@ TEST(Trainer, LearnsColourAndKeepsDepth) {
   EXPECT_NEAR(report.iterations_per_second * report.seconds, 180.0, 1e-6);
 }
 
-// Discs that start 4 mm before the wall: colours alone hardly tell.
+// Discs that start 4 mm in front of the wall, an error that colours alone hardly show.
 TEST(Trainer, DepthTermBringsDepthToTheSurface) {
   const CornerScene scene;
   const auto context = compute::Context::open();
@@ -145,7 +146,7 @@ TEST(Trainer, SameSeedSameBits) {
   EXPECT_NE(one, hash(train(24, 43)));
 }
 
-// Run by ThreadsDoNotChangeBits in a process of its own, because PoCL reads its thread count once.
+// Run by ThreadsDoNotChangeBits in a separate process, because PoCL reads its number of threads only once.
 TEST(Trainer, DISABLED_PrintsHash) {
   std::printf("hash=%016llx\n", static_cast<unsigned long long>(hash(train(24, 42))));
 }
@@ -217,7 +218,7 @@ TEST(Trainer, GrowthIsLimited) {
   float most = 0.0F;
   for (std::size_t i = 0; i < initial.log_scales.size(); ++i)
     most = std::max(most, trained.log_scales[i] - initial.log_scales[i]);
-  EXPECT_NEAR(most, std::log(1.2F), 1e-6F);  // reached, not passed
+  EXPECT_NEAR(most, std::log(1.2F), 1e-6F);  // the limit is reached and not exceeded
 }
 
 TEST(Trainer, PaperPresetTrains) {
@@ -250,7 +251,7 @@ TEST(Trainer, NoIterationsIsDoneAtOnce) {
   EXPECT_EQ(trainer.report().psnr_db, 0.0);
 }
 
-/// One view whose image the test can spoil.
+/// One view whose image the test can modify.
 class OneView : public TrainingViews {
  public:
   CornerScene scene;

@@ -25,7 +25,7 @@ Verdict judged(TrainingGuard& guard, int level, double psnr_db, int first = 1, i
   return guard.judge();
 }
 
-// As often as it takes until a fall counts, or one time less.
+// Judges repeatedly until a fall counts, or `less` times fewer.
 Verdict judged_long(TrainingGuard& guard, int level, double psnr_db, int less = 0) {
   Verdict verdict = Verdict::nothing;
   for (int i = less; i < TrainingGuard::patience; ++i) {
@@ -41,9 +41,9 @@ TEST(TrainingGuard, FallsByMoreThanItsLimitAndNoLess) {
   EXPECT_EQ(judged(guard, 0, 30.0), Verdict::best);
   EXPECT_EQ(judged(guard, 0, 27.2), Verdict::nothing);
   EXPECT_EQ(judged(guard, 0, 31.0), Verdict::best);
-  EXPECT_EQ(judged(guard, 0, 5.0, 1, TrainingGuard::least_steps - 1), Verdict::nothing);  // too few to say
+  EXPECT_EQ(judged(guard, 0, 5.0, 1, TrainingGuard::least_steps - 1), Verdict::nothing);  // too few steps
   EXPECT_EQ(judged_long(guard, 0, 5.0, 1), Verdict::nothing);
-  EXPECT_EQ(judged(guard, 0, 30.0), Verdict::nothing);  // it mended: counted anew
+  EXPECT_EQ(judged(guard, 0, 30.0), Verdict::nothing);  // recovered: counting restarts
   EXPECT_EQ(judged_long(guard, 0, 5.0), Verdict::fallen);
   EXPECT_EQ(guard.best_db(), 31.0);
   guard.went_back();
@@ -89,7 +89,7 @@ TEST(TrainingGuard, StateRoundTripsAndNonsenseIsRefused) {
   EXPECT_THROW(other.set_state({}), InputError);
 }
 
-/// Full-size training of the corner whose densification keeps next to nothing.
+/// Full-size training of the corner whose densification removes nearly all Gaussians.
 TrainerOptions destructive_options() {
   TrainerOptions options;
   options.iterations = 700;
@@ -112,7 +112,7 @@ TEST(Trainer, StepThatDestroysTheMapIsUndone) {
     trainer.step();
     sizes.insert(trainer.report().gaussians);
   }
-  EXPECT_GT(sizes.size(), 1U);  // else nothing was changed
+  EXPECT_GT(sizes.size(), 1U);  // densification has changed the map
   const TrainingReport report = trainer.report();
   EXPECT_EQ(report.undone, 1);
   EXPECT_EQ(report.iterations, 700);
@@ -127,7 +127,7 @@ TEST(Trainer, RunThatGoesBackIsResumedWithTheSameBits) {
   Trainer whole(context, destructive_options(), initial, views);
   while (!whole.done()) whole.step();
   ASSERT_EQ(whole.report().undone, 1);
-  for (const int steps : {90, 350, 600}) {  // before the fall, in it, after it
+  for (const int steps : {90, 350, 600}) {  // before, during and after the fall
     Trainer first(context, destructive_options(), initial, views);
     for (int i = 0; i < steps; ++i) first.step();
     Trainer second(context, destructive_options(), initial, views);
@@ -138,11 +138,11 @@ TEST(Trainer, RunThatGoesBackIsResumedWithTheSameBits) {
   }
 }
 
-/// Views whose images turn into noise.
+/// Views whose images become checkerboards after some time.
 class SpoiltViews : public CornerViews {
  public:
   using CornerViews::CornerViews;
-  int left = 210;  // good images
+  int left = 210;  // number of valid images left
   ColorImage color(int i) override {
     ColorImage image = CornerViews::color(i).clone();
     if (left-- > 0) return image;
@@ -164,7 +164,7 @@ TEST(Trainer, FallWithoutDensificationEndsWithTheBest) {
   EXPECT_EQ(trainer.iteration(), 200);
 }
 
-/// A camera that moves by millimetres.
+/// A camera that moves by a few centimetres.
 class TripodViews : public test::CornerViews {
  public:
   TripodViews() : CornerViews(4) {
@@ -181,7 +181,8 @@ class TripodViews : public test::CornerViews {
   std::vector<ColorImage> images_;
 };
 
-// The cameras' extent is 3 cm, half of it less than most discs: sizes taken from it alone leave next to nothing.
+// The cameras' extent is 3 cm, and half of it is less than the size of most discs: limits derived from it alone would
+// remove nearly all discs.
 TEST(Trainer, CameraThatHardlyMovesLeavesTheMapWhole) {
   TripodViews views;
   const Gaussians initial = gaussians_from_cloud(CornerScene().cloud(0.04), {});
