@@ -30,7 +30,7 @@ std::vector<std::string> chosen_methods(const BenchmarkOptions& options, const S
     for (const SuiteMethod& m : suite.methods) methods.push_back(m.name);
   }
   for (const std::string& name : methods) {
-    if (std::count(methods.begin(), methods.end(), name) > 1) throw InputError("--methods", name + " is there twice");
+    if (std::count(methods.begin(), methods.end(), name) > 1) throw InputError("--methods", name + " is listed twice");
     if (method_recipe(name) == nullptr && own_method(suite, name) == nullptr) {
       std::string known;
       for (const std::string& n : built_in_methods()) known += (known.empty() ? "" : ", ") + n;

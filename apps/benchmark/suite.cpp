@@ -92,7 +92,7 @@ std::string checked_name(const Table& table) {
 template <typename Named>
 void expect_unique(const Table& table, const std::vector<Named>& before, const std::string& name) {
   for (const Named& other : before) {
-    if (other.name == name) table.fail(table.node(), name + " is there twice");
+    if (other.name == name) table.fail(table.node(), name + " is listed twice");
   }
 }
 

@@ -72,8 +72,8 @@ void run(const Common& common, const RenderFlags& flags) {
   require_near_origin(flags.poses, poses);
   if (method_preset(flags.method).view == ViewKind::sensor) throw InputError("--method", "rgbd has no map to render");
   OpenedView opened = open_view(common, flags.method, flags.map);
-  // Written with 16 bits; a depth or sigma beyond their range becomes 0 (no value).
   constexpr double sigma_units = 10000.0;
+  std::size_t too_far = 0;
   ViewRequest request;
   request.color = wanted.color;
   request.alpha = wanted.alpha;
@@ -82,12 +82,25 @@ void run(const Common& common, const RenderFlags& flags) {
     if (interrupted()) throw Interrupted();
     const ViewImages images = opened.view->render(camera.camera, poses[k].T_world_camera, request);
     if (wanted.color && !images.color.empty()) write_color(file_of(flags, "color", file.numbers[k]), images.color);
-    if (wanted.depth) write_depth(file_of(flags, "depth", file.numbers[k]), images.depth, camera.depth_scale);
+    if (wanted.depth) {
+      too_far += write_depth(file_of(flags, "depth", file.numbers[k]), images.depth, camera.depth_scale);
+    }
     if (wanted.alpha) write_gray(file_of(flags, "alpha", file.numbers[k]), images.alpha);
-    if (wanted.sigma) write_depth(file_of(flags, "sigma", file.numbers[k]), images.sigma, sigma_units);
+    if (wanted.sigma) {
+      // As 0 a sigma beyond 16 bits would count as none, which a reader may take for certain depth.
+      DepthImage sigma = images.sigma;
+      if (!sigma.empty()) cv::min(sigma, largest_depth(sigma_units), sigma);
+      write_depth(file_of(flags, "sigma", file.numbers[k]), sigma, sigma_units);
+    }
     progress.update(static_cast<long>(k) + 1);
   }
   progress.finish();
+  if (too_far > 0) {
+    char text[160];
+    std::snprintf(text, sizeof(text), "%zu pixels lie beyond the %.2f m that 16 bits at depth_scale %g hold: depth 0",
+                  too_far, largest_depth(camera.depth_scale), camera.depth_scale);
+    log_warning(flags.out + ": " + text);
+  }
   if (opened.device) print_profile(common, *opened.device);
   print("%s: %zu views\n", flags.out.c_str(), poses.size());
 }

@@ -234,6 +234,14 @@ TEST_F(Chain, ThreadsChangeNoBit) {
   EXPECT_EQ(read_text(a + "/trajectory.txt"), read_text(b + "/trajectory.txt"));
 }
 
+TEST_F(Chain, RenderSaysWhatSixteenBitsCannotHold) {
+  const std::string camera = scratch_ / "fine.yaml";
+  write_text(camera, "width: 160\nheight: 120\nfx: 130\nfy: 130\ncx: 79.5\ncy: 59.5\ndepth_scale: 200000\n");
+  const RunResult run = must_run({"render", "--map", map_, "--poses", sequence_ + "/groundtruth.txt", "--camera",
+                                  camera, "--out", scratch_ / "fine", "--what", "depth"});
+  EXPECT_THAT(run.err, HasSubstr("pixels lie beyond the 0.33 m that 16 bits at depth_scale 200000 hold: depth 0"));
+}
+
 TEST_F(Chain, RendersAndDraws) {
   const std::string out = scratch_ / "render";
   must_run({"render", "--map", map_, "--poses", sequence_ + "/groundtruth.txt", "--camera", sequence_ + "/camera.yaml",
@@ -278,7 +286,7 @@ TEST_F(Chain, CheckNamesTheFault) {
   const std::string camera = "width: 160\nheight: 120\nfx: 130\nfy: 130\ncx: 79.5\ncy: 59.5\n";
   write_text(sequence_ + "/camera.yaml", camera);
   const RunResult assumed = must_run({"check", sequence_, "--gap", "10"});
-  const std::string said = "names no depth_scale: 5000 units a metre are assumed";
+  const std::string said = "names no depth_scale: 5000 units per metre are assumed";
   ASSERT_THAT(assumed.err, HasSubstr(said));
   EXPECT_EQ(assumed.err.find(said), assumed.err.rfind(said));
   write_text(sequence_ + "/camera.yaml", camera + "depth_scale: 1000\n");

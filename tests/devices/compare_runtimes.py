@@ -33,7 +33,7 @@ def read(path):
             word, name, *values = line.split()
             if word == "array":
                 if name in arrays:
-                    raise SystemExit(f"{path}: {name} is there twice")
+                    raise SystemExit(f"{path}: {name} is listed twice")
                 arrays[name] = [float(v) for v in values]
     return arrays
 

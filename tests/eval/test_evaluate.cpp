@@ -205,8 +205,7 @@ TEST(Evaluate, SaysWhyUnderHalfIsMatched) {
       EXPECT_LE(r.pairs, 4U);
       EXPECT_LE(r.coverage, 0.04);
       EXPECT_LE(r.coverage_truth, 0.04);
-      EXPECT_THAT(r.doubt,
-                  testing::HasSubstr("of 100 poses of the estimate are of the time of one of the truth (100)"));
+      EXPECT_THAT(r.doubt, testing::HasSubstr("of 100 poses of the estimate match one of the truth in time (100)"));
       EXPECT_THAT(r.doubt, testing::EndsWith(std::string("the stamps of the ") + (scale_truth ? "truth" : "estimate") +
                                              " look like " + unit));
     }

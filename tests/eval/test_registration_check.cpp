@@ -111,7 +111,7 @@ TEST(CheckRegistration, LeavesASmallMisfitOpenAndSaysHowLargeItIs) {
   const RegistrationReport r = check_registration(scene(1.0, 3.0, -1.0));
   EXPECT_EQ(r.registered, std::nullopt) << r.text;
   EXPECT_NEAR(r.shift_px.x(), 3.0, 0.75);
-  EXPECT_THAT(r.text, HasSubstr("not decidable whether they are quite of one camera"));
+  EXPECT_THAT(r.text, HasSubstr("not decidable whether they are from exactly the same camera"));
 }
 
 TEST(CheckRegistration, SaysNothingWhereTheImagesDoNotTell) {

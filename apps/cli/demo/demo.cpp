@@ -164,7 +164,7 @@ void run(const Common& common, const std::string& out, const DemoOptions& option
 }  // namespace
 
 void add_demo(CLI::App& app, Common& common) {
-  CLI::App* command = add_command(app, common, "demo", "the whole chain on a made-up room: no data needed");
+  CLI::App* command = add_command(app, common, "demo", "the whole chain on a synthetic room: no data needed");
   auto out = std::make_shared<std::string>();
   auto options = std::make_shared<DemoOptions>();
   auto size = std::make_shared<std::string>("320x240");

@@ -149,7 +149,7 @@ void run(const SynthesizeFlags& flags) {
 
 void add_synthesize(CLI::App& app, Common& common) {
   CLI::App* command = add_command(app, common, "synthesize",
-                                  "render a made-up room: sequences with true depth and poses, a scanner's cloud");
+                                  "render a synthetic room: sequences with true depth and poses, a scanner's cloud");
   auto flags = std::make_shared<SynthesizeFlags>();
   command->add_flag("--list", flags->list, "print the scenes and their walks");
   command->add_option("--scene", flags->scene, "a scene of --list, or a description (FILE.yaml)");
@@ -158,7 +158,7 @@ void add_synthesize(CLI::App& app, Common& common) {
   command->add_option("--cloud", flags->cloud, "PLY file for what a lidar sees of the scene");
   command->add_option("--size", flags->size, "WIDTHxHEIGHT of the images [px]");
   add_number(command, "--frames", flags->frames, {.least = 0, .word = "all"},
-             "render only the first so many; 0 or all: all of them");
+             "render only the first N frames; 0 or all: all of them");
   add_number(command, "--seed", flags->seed, {}, "seed of textures and noise");
   add_number(command, "--voxel", flags->voxel, {.least = 0.0, .most = 1000.0, .least_excluded = true},
              "edge of the cloud's voxels, a point each [m]");

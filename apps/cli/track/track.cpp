@@ -138,7 +138,7 @@ class Run {
     if (!s.likely_cause.empty() && !warned_of_camera_) {
       warned_of_camera_ = true;
       log_warning(sequence_.name() + ": " + s.likely_cause +
-                  ", compared with what is said of the camera; poses that this moves by centimetres are refused");
+                  ", compared with the camera file; poses that this changes by centimetres are refused");
     }
     std::string words = to_string(status) + "  " + std::to_string(s.keyframes) + " keyframes  " +
                         std::to_string(s.lost + static_cast<int>(record_.unreadable())) + " lost";
@@ -309,7 +309,7 @@ void add_track(CLI::App& app, Common& common) {
                     "play at the sequence's rate: keyframes in the background, late frames are dropped (default: every "
                     "frame, same bits every time)");
   command->add_option("--depth-use", job->depth_use,
-                      "what the window makes of the map's depth: fixed, pose_aware, prior, pose_aware_prior, free or "
+                      "how the window uses the map's depth: fixed, pose_aware, prior, pose_aware_prior, free or "
                       "interval (default: the method's)");
   add_depth_noise_flag(command, job->depth_noise);
   add_number(command, "--seed", job->seed, {}, "seed of the pixel selector and of depth noise");

@@ -30,11 +30,11 @@ std::string csv_field(std::string text) {
 const char* reason_lost(const MapEvidence& evidence) {
   switch (evidence.verdict) {
     case Confirmation::contradicted:
-      return "the map shows something else from where it fits best";
+      return "the map contradicts the image at the pose that fits best";
     case Confirmation::undecided:
       return "image and map agree in part only";
     case Confirmation::confirmed:
-      return "the camera seems not to be the one that the file describes";
+      return "the camera seems to differ from the camera file";
     case Confirmation::none:
       break;
   }

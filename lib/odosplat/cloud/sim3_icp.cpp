@@ -231,10 +231,11 @@ class Aligner {
                     "only %.1f %% of %d points come to lie within %g m of the cloud, needed are %.0f %%",
                     100.0 * r.inlier_share, r.points, options_.inlier, 100.0 * options_.min_inliers);
     } else if (!(r.weakest >= open_below)) {
-      std::snprintf(text, sizeof(text), "the surfaces leave a direction, a rotation or the scale open (%.4f < %.4f)",
-                    r.weakest, open_below);
+      std::snprintf(text, sizeof(text),
+                    "the surfaces do not determine a direction, a rotation or the scale (%.4f < %.4f)", r.weakest,
+                    open_below);
     } else if (!r.converged) {
-      std::snprintf(text, sizeof(text), "still moving after %d iterations", r.iterations);
+      std::snprintf(text, sizeof(text), "not converged after %d iterations", r.iterations);
     }
     return text;
   }

@@ -51,7 +51,7 @@ std::string no_device_reason() {
   if (getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) {
     return "memory is limited to " + std::to_string(memory.rlim_cur >> 20U) + " MiB (ulimit -v)";
   }
-  return "pocl-opencl-icd serves any CPU";
+  return "install pocl-opencl-icd, which works on any CPU";
 }
 
 }  // namespace odosplat::compute

@@ -37,7 +37,7 @@ Similarity align_points(const std::vector<Eigen::Vector3d>& source, const std::v
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& singular = svd.singularValues();
   if (!(singular[1] > 1e-10 * singular[0]) || !(singular[0] > 0.0)) {
-    throw InputError("alignment", "the positions are at one place or on a line, which leaves the rotation open");
+    throw InputError("alignment", "the positions coincide or lie on a line, so that the rotation is not determined");
   }
   Eigen::Vector3d sign = Eigen::Vector3d::Ones();
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) sign.z() = -1.0;

@@ -246,7 +246,9 @@ ConventionReport check_conventions(const ConventionInput& input, const Conventio
     return !report.rows.empty();
   };
   if (!try_gaps(true) && !try_gaps(false)) {
-    throw InputError("sequence", "no two images see the same surfaces under any convention: nothing to judge by");
+    throw InputError(
+        "sequence",
+        "no two images show the same surfaces under any convention, so that the conventions cannot be checked");
   }
   std::stable_sort(report.rows.begin(), report.rows.end(),
                    [](const ConventionRow& a, const ConventionRow& b) { return a.relative_error < b.relative_error; });

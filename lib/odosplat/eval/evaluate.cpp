@@ -71,7 +71,7 @@ EvalResult evaluate(const Trajectory& estimate, const Trajectory& truth, const E
     std::snprintf(within, sizeof(within), "%g s", options.max_time_difference);
     const std::string why = why_unmatched(estimate, truth, result, options.max_time_difference);
     result.doubt = std::to_string(result.pairs) + " of " + std::to_string(estimate.size()) +
-                   " poses of the estimate are of the time of one of the truth (" + std::to_string(truth.size()) +
+                   " poses of the estimate match one of the truth in time (" + std::to_string(truth.size()) +
                    ") within " + within + (why.empty() ? "" : "; " + why);
   }
   const bool alignable = options.alignment == TrajectoryAlignment::none || result.pairs >= 3;
@@ -117,7 +117,7 @@ EvalResult evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   result.rre_deg = statistics(relative_rotations);
   for (const Statistics* s : {&result.ate_m, &result.are_deg, &result.rte_m, &result.rre_deg}) {
     if (s->count > 0 && !(std::isfinite(s->rmse) && std::isfinite(s->max))) {
-      throw InputError("trajectories", "positions are so large that their errors are no numbers");
+      throw InputError("trajectories", "positions are so large that their errors overflow");
     }
   }
   return result;

@@ -319,7 +319,7 @@ RegistrationReport check_registration(const RegistrationInput& input, const Regi
     report.registered = true;
     report.text = "colour and depth are of one camera: " + std::string(text);
   } else {
-    report.text = "colour and depth: not decidable whether they are quite of one camera, " + std::string(text);
+    report.text = "colour and depth: not decidable whether they are from exactly the same camera, " + std::string(text);
   }
   return report;
 }

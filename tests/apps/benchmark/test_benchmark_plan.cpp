@@ -84,7 +84,7 @@ TEST(Suite, FaultsNameFileLineAndKey) {
   EXPECT_THAT(fault_of(folder, "suite: a\ndepth_noise: fog\n"), HasSubstr("none or kinect"));
   const std::string twice = "suite: a\nscenes: [{name: a}]\nsequences:\n- {name: s, scene: a, path: x}\n";
   EXPECT_EQ(fault_of(folder, twice), "");
-  EXPECT_THAT(fault_of(folder, twice + "- {name: s, scene: a, path: x}\n"), HasSubstr("s is there twice"));
+  EXPECT_THAT(fault_of(folder, twice + "- {name: s, scene: a, path: x}\n"), HasSubstr("s is listed twice"));
 }
 
 TEST(Suite, TheBuiltInOnesHaveThePapersEightSequences) {

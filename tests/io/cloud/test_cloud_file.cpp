@@ -93,7 +93,7 @@ TEST(CloudFile, AByteOrderMarkBeforeTheHeaderIsPassedOver) {
 
 TEST(CloudFile, ColoursBeyond16BitsAreRefused) {
   EXPECT_EQ(error_of([] { cloud_of(xyz + rgb("int"), "1 2 3 70000 0 0\n", 1); }),
-            "c.ply: vertex 1: its colour is no colour");
+            "c.ply: vertex 1: its colour is negative or not finite");
 }
 
 TEST(CloudFile, FormatsThatAreNotReadAreNamed) {
@@ -139,9 +139,9 @@ TEST(CloudFile, FaultsAreNamed) {
   EXPECT_EQ(error_of([] { cloud_of(xyz, "", 0); }), "c.ply: holds no point");
   EXPECT_EQ(error_of([] { cloud_of(xyz, "nan nan nan\n", 1); }), "c.ply: holds no point");
   EXPECT_EQ(error_of([] { cloud_of(xyz + rgb("float"), "1 2 3 nan 0 0\n", 1); }),
-            "c.ply: vertex 1: its colour is no colour");
+            "c.ply: vertex 1: its colour is negative or not finite");
   EXPECT_EQ(error_of([] { cloud_of(xyz + rgb("int"), "1 2 3 -1 0 0\n", 1); }),
-            "c.ply: vertex 1: its colour is no colour");
+            "c.ply: vertex 1: its colour is negative or not finite");
   EXPECT_EQ(error_of([] { cloud_of(xyz, "1 2 3\n", 7); }),
             "c.ply: the header promises 7 rows of vertex, the file holds 1");
   EXPECT_EQ(error_of([] { read_point_cloud("/nowhere.ply"); }), "/nowhere.ply: is missing");

@@ -91,7 +91,7 @@ TEST(CloudLas, FarCloudsAreRefusedAndReadInDoublePrecision) {
   las.points = {{{500000.125, 5400000.377, 2.0}, {0, 0, 0}, {}}};
   EXPECT_EQ(fault("c.las", las.bytes()),
             "c.las: is too far from the origin: a point at 500000 5.4e+06 2 would move by 0.123 m in single precision; "
-            "bring it near with `odosplat cloud --from FILE --origin X Y Z`");
+            "shift it with `odosplat cloud --from FILE --origin X Y Z`");
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   scan_cloud_bytes("c.las", las.bytes(), [&](const CloudBatch& batch) { point = batch.points.at(0); });
   EXPECT_NEAR((point - Eigen::Vector3d(500000.125, 5400000.377, 2.0)).norm(), 0.0, 1e-8);

@@ -95,7 +95,7 @@ TEST(CloudText, ColumnsWithoutNames) {
 
 TEST(CloudText, WhatCannotBeToldIsRefused) {
   const std::string hint = "; begin the file with a line of names, as in `x y z r g b`";
-  EXPECT_EQ(fault("1 2 3 0 0 1\n"), "c.txt: line 1: holds colours or normals, the values do not tell" + hint);
+  EXPECT_EQ(fault("1 2 3 0 0 1\n"), "c.txt: line 1: has columns that may be colours or normals" + hint);
   for (const char* columns : {"1 2", "1 2 3 4 5", "1 2 3 4 5 6 7", "1 2 3 4 5 6 7 8", "1 2 3 4 5 6 7 8 9 10"}) {
     EXPECT_THAT(fault(columns), HasSubstr("columns without names" + hint));
   }
@@ -108,10 +108,11 @@ TEST(CloudText, FaultsNameTheLine) {
   EXPECT_EQ(fault("1 2 3\n1 two 3\n"), "c.txt: line 2: `two` is not a number");
   EXPECT_EQ(fault("1 2 3\n1 1e999 3\n"), "c.txt: line 2: `1e999` is not a number");
   EXPECT_EQ(fault("1,5;2,5;3,5\n"), "c.txt: line 1: neither holds numbers nor names columns x y z: `1,5;2,5;3,5`");
-  EXPECT_EQ(fault("1 2 3 4 5 300\n"), "c.txt: line 1: its colour is no colour of 0..255 or 0..1");
-  EXPECT_EQ(fault("x y z r g b\n1 2 3 4 5 -1\n"), "c.txt: line 2: its colour is no colour of 0..65535, 0..255 or 0..1");
+  EXPECT_EQ(fault("1 2 3 4 5 300\n"), "c.txt: line 1: its colour is negative or not finite of 0..255 or 0..1");
+  EXPECT_EQ(fault("x y z r g b\n1 2 3 4 5 -1\n"),
+            "c.txt: line 2: its colour is negative or not finite of 0..65535, 0..255 or 0..1");
   EXPECT_EQ(fault("x y z r g b\n1 2 3 4 5 65536\n"),
-            "c.txt: line 2: its colour is no colour of 0..65535, 0..255 or 0..1");
+            "c.txt: line 2: its colour is negative or not finite of 0..65535, 0..255 or 0..1");
   EXPECT_EQ(fault("east north up\n1 2 3\n"),
             "c.txt: line 1: neither holds numbers nor names columns x y z: `east north up`");
   EXPECT_EQ(fault("# nothing\n"), "c.txt: holds no point");

@@ -94,7 +94,7 @@ TEST(ImageFile, DepthKeepsSixteenBits) {
   depth(0, 2) = 70.0F;  // beyond 16 bits
   depth(0, 3) = -1.0F;
   depth(0, 4) = std::numeric_limits<float>::quiet_NaN();
-  write_depth(temp / "m.png", depth, 1000.0);
+  EXPECT_EQ(write_depth(temp / "m.png", depth, 1000.0), 1U);
   const cv::Mat1w units = read_depth_raw(temp / "m.png");
   EXPECT_THAT(std::vector<int>(units.begin(), units.end()), ElementsAre(1234, 0, 0, 0, 0));
 }

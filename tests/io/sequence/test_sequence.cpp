@@ -147,7 +147,7 @@ TEST(SequenceTum, StampsInAnotherUnitAreNamed) {
   };
   EXPECT_EQ(warnings(), "");
   temp.put("rgb.txt", "10000000000 rgb/10.000.png\n10100000000 rgb/10.100.png\n10200000000 rgb/10.200.png\n");
-  EXPECT_THAT(warnings(), HasSubstr("groundtruth.txt: none of its poses is of the time of an image; the stamps of the "
+  EXPECT_THAT(warnings(), HasSubstr("groundtruth.txt: none of its poses matches an image in time; the stamps of the "
                                     "images look like ns"));
   EXPECT_THAT(warnings(), HasSubstr("s apart (median): their stamps look like ns where seconds are expected"));
 }

@@ -75,7 +75,7 @@ TEST(VideoDamage, AnImageThatIsMissingIsToldAndThatTheStampsShift) {
   // Without the index at the file's end, the number is in its header.
   const Said bare = read(temp.put("bare.avi", avi.substr(0, avi.rfind("idx1"))));
   EXPECT_EQ(bare.size, frames - 1);
-  EXPECT_THAT(bare.warnings, HasSubstr("1 that it promises are missing"));
+  EXPECT_THAT(bare.warnings, HasSubstr("1 that the file declares are missing"));
 }
 
 TEST(VideoDamage, AFileThatIsCutOffSaysHowMuchIsMissing) {

@@ -51,7 +51,7 @@ CloudMaterial::CloudMaterial(const CloudCheckInput& input, const CloudCheckOptio
   }
   given_.points = input.cloud.points;
   std::erase_if(given_.points, [](const Eigen::Vector3f& p) { return !p.allFinite(); });
-  if (given_.size() < 4) throw InputError("cloud", "holds too few points to check anything by");
+  if (given_.size() < 4) throw InputError("cloud", "has too few points for the check");
   const double least = extent_of(given_) / 2000.0;
   for (double voxel = std::max(least, 1e-6); given_.size() > static_cast<std::size_t>(options.most_points);
        voxel *= 1.3) {

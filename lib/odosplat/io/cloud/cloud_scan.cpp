@@ -119,7 +119,8 @@ class Cleaner {
  private:
   Eigen::Vector3f color(const Eigen::Vector3f& raw) const {
     if (!raw.allFinite() || raw.minCoeff() < 0.0F || exceeds(raw.maxCoeff(), full_color_)) {
-      throw InputError(name_, std::string(row_word_) + " " + std::to_string(seen_ + 1), "its colour is no colour");
+      throw InputError(name_, std::string(row_word_) + " " + std::to_string(seen_ + 1),
+                       "its colour is negative or not finite");
     }
     return (raw / full_color_).cwiseMin(1.0F);
   }

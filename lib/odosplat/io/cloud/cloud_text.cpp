@@ -69,7 +69,7 @@ class TextSource : public CloudSource {
     // Without column names, values above 255 need not be colours.
     const float most = layout_.has_names ? 65535.0F : 255.0F;
     if (!(value.minCoeff() >= 0.0F && value.maxCoeff() <= most)) {
-      lines_.fail(std::string("its colour is no colour of ") + (layout_.has_names ? "0..65535, " : "") +
+      lines_.fail(std::string("its colour is negative or not finite of ") + (layout_.has_names ? "0..65535, " : "") +
                   "0..255 or 0..1");
     }
     return value;

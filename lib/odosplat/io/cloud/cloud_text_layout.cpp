@@ -140,7 +140,7 @@ class LayoutFinder {
       are_unit = are_unit && std::abs(std::hypot(row[3], row[4], row[5]) - 1.0) < 1e-2;
       any_negative = any_negative || std::min({row[3], row[4], row[5]}) < 0.0;
     }
-    if (are_unit && !any_negative) refuse("holds colours or normals, the values do not tell");
+    if (are_unit && !any_negative) refuse("has columns that may be colours or normals");
     return are_unit;
   }
 

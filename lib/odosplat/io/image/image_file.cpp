@@ -123,15 +123,20 @@ void write_gray(const std::string& path, const GrayImage& gray) {
 
 void write_png16(const std::string& path, const cv::Mat1w& image) { write_png(path, image); }
 
-void write_depth(const std::string& path, const DepthImage& depth, double units_per_metre) {
+double largest_depth(double units_per_metre) { return 65534.0 / units_per_metre; }
+
+std::size_t write_depth(const std::string& path, const DepthImage& depth, double units_per_metre) {
   cv::Mat1w units(depth.size(), std::uint16_t{0});
+  std::size_t too_far = 0;
   for (int y = 0; y < depth.rows; ++y) {
     for (int x = 0; x < depth.cols; ++x) {
       const double value = std::round(static_cast<double>(depth(y, x)) * units_per_metre);
       if (value > 0.0 && value < 65535.0) units(y, x) = static_cast<std::uint16_t>(value);
+      if (value >= 65535.0) ++too_far;
     }
   }
   write_png16(path, units);
+  return too_far;
 }
 
 }  // namespace odosplat

@@ -53,6 +53,9 @@ void write_rgb8(const std::string& path, const cv::Mat3b& rgb);      // channel 
 void write_gray(const std::string& path, const GrayImage& gray);     // 8-bit grey
 void write_png16(const std::string& path, const cv::Mat1w& image);   // 16-bit grey
 /// 16-bit grey: metres * units_per_metre. Values out of range become 0 (no depth), so that no wrong depth is stored.
-void write_depth(const std::string& path, const DepthImage& depth, double units_per_metre);
+/// Returns how many pixels were too far for it (largest_depth).
+std::size_t write_depth(const std::string& path, const DepthImage& depth, double units_per_metre);
+/// [m] The largest depth that write_depth stores.
+double largest_depth(double units_per_metre);
 
 }  // namespace odosplat

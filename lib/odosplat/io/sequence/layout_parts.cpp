@@ -70,7 +70,7 @@ std::map<long long, SE3> read_numbered_poses(const std::string& path) {
 void fill_numbered(const NumberedFiles& files, SequenceIndex& index) {
   const double fps = index.camera.fps > 0.0 ? index.camera.fps : default_fps;
   if (index.camera.fps <= 0.0) {
-    log_info(index.camera_source + " says no fps: the images count as 30 a second");
+    log_info(index.camera_source + " has no fps: 30 frames per second are assumed");
   }
   for (const auto& [number, color] : files.color) {
     FrameFiles frame;

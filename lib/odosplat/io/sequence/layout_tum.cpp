@@ -123,7 +123,7 @@ void warn_if_unposed(const std::string& truth, const SequenceIndex& index) {
   }
   NamedStamps poses{"the poses", {}};
   for (const StampedPose& pose : index.truth) poses.times.push_back(pose.time);
-  log_warning(truth + ": none of its poses is of the time of an image; " +
+  log_warning(truth + ": none of its poses matches an image in time; " +
               guess_stamp_fault(images, poses, tum_depth_tolerance));
 }
 

@@ -96,7 +96,7 @@ struct Sequence::Data {
       char text[64];
       std::snprintf(text, sizeof(text), "%g", index.camera.depth_scale);
       log_warning(index.camera_source + " names no depth_scale: " + text +
-                  " units a metre are assumed, as is usual for the layout " + layout);
+                  " units per metre are assumed, as is usual for the layout " + layout);
     });
   }
 

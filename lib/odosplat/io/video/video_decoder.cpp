@@ -92,7 +92,7 @@ int quarters_of(const std::string& path, const AVStream& stream) {
   const std::int32_t* m = display_matrix(stream);
   if (m == nullptr) return 0;
   const double determinant = static_cast<double>(m[0]) * m[4] - static_cast<double>(m[1]) * m[3];
-  if (determinant < 0.0) throw InputError(path, "is to be shown mirrored: no camera sees that");
+  if (determinant < 0.0) throw InputError(path, "is marked to be shown mirrored, which is not supported");
   const double clockwise = -av_display_rotation_get(m);
   const double quarters = std::round(clockwise / 90.0);
   if (!(std::abs(clockwise - 90.0 * quarters) < 0.1)) {

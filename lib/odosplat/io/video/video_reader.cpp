@@ -52,7 +52,7 @@ void warn_of_damage(const std::string& path, const VideoDecoder::Damage& damage,
   if (!damage.any()) return;
   std::string faults;
   const auto add = [&faults](const std::string& fault) { faults += (faults.empty() ? "" : ", ") + fault; };
-  if (damage.missing > 0) add(std::to_string(damage.missing) + " that it promises are missing");
+  if (damage.missing > 0) add(std::to_string(damage.missing) + " that the file declares are missing");
   if (damage.missing_s > 0.0) add("it ends " + seconds_text(damage.missing_s) + " before its header says");
   if (damage.undecoded > 0) add(std::to_string(damage.undecoded) + " cannot be decoded and are left out");
   if (damage.corrupt > 0) add(std::to_string(damage.corrupt) + " are decoded from damaged data");

@@ -32,7 +32,8 @@ void read_parameters(const YamlPart& part, const std::vector<ParameterRow>& rows
     } else if (row.fallback.empty()) {
       const YamlPart list = part.at(row.name);
       numbers[row.name] = list.numbers(row.low, row.high);
-      if (numbers[row.name].size() % 3 != 0 || numbers[row.name].empty()) list.fail("needs numbers by threes");
+      if (numbers[row.name].size() % 3 != 0 || numbers[row.name].empty())
+        list.fail("needs a multiple of three numbers");
     } else {
       numbers[row.name] = numbers_of(part.at(row.name), row.fallback.size(), row.low, row.high);
     }
