@@ -8,11 +8,12 @@
 #include "odosplat/odometry/frame/frame.hpp"
 #include "odosplat/odometry/frame/tracking_reference.hpp"
 #include "odosplat/odometry/light/row_gain.hpp"
+#include "odosplat/odometry/residual_noise.hpp"
 
 namespace odosplat {
 
 struct ImageAlignerOptions {
-  double huber = 9.0 / 255;       // [grey] residuals beyond weigh less
+  double huber = residual_huber;  // [grey] residuals beyond weigh less
   double cutoff = 20.0 / 255;     // [grey] residuals beyond count as outliers
   int max_iterations = 30;        // per level
   double converged = 0.02;        // [px] predicted image motion of a step below which a level is done
@@ -20,7 +21,7 @@ struct ImageAlignerOptions {
   double max_log_gain = 1.2;      // |a| of the relative brightness, natural log
   double gain_sigma = 0.5;        // weak prior on a, relative to its guess
   double offset_sigma = 0.5;      // [grey] weak prior on b
-  double noise = 5.0 / 255;       // [grey] of one residual, for covariance and priors
+  double noise = residual_noise;  // [grey] of one residual, for covariance and priors
   double bare_noise = 2.0 / 255;  // [grey] the same for a bare reference, whose residuals are little but noise
   RowGainOptions row_gain;
 

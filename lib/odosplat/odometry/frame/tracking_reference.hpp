@@ -9,6 +9,7 @@
 #include "odosplat/odometry/frame/frame.hpp"
 #include "odosplat/odometry/points/map_plane.hpp"
 #include "odosplat/odometry/points/pixel_selector.hpp"
+#include "odosplat/odometry/residual_noise.hpp"
 
 namespace odosplat {
 
@@ -35,14 +36,14 @@ struct TrackingReference {
 };
 
 struct ReferenceOptions {
-  int points = 2000;                    // wanted on level 0 of a 320x240 image; grows with the square root of the area
-  double level_share = 0.6;             // points wanted on a level, as a share of those on the finer level below it
-  int min_points = 250;                 // wanted on any level
-  double gradient_weight = 50.0 / 255;  // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2)
-  double min_gradient = 5.0 / 255;      // [grey/px] of a pixel whose depth comes from another keyframe's point
-  double bare_share = 0.5;              // share of the image's regions with picked pixels below which the image counts
-                                        // as bare
-  double bare_factor = 5.0;             // factor of the points wanted on a bare image, as each contributes little
+  int points = 2000;         // wanted on level 0 of a 320x240 image; grows with the square root of the area
+  double level_share = 0.6;  // points wanted on a level, as a share of those on the finer level below it
+  int min_points = 250;      // wanted on any level
+  double gradient_weight = gradient_weight_constant;  // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2)
+  double min_gradient = 5.0 / 255;  // [grey/px] of a pixel whose depth comes from another keyframe's point
+  double bare_share = 0.5;          // share of the image's regions with picked pixels below which the image counts
+                                    // as bare
+  double bare_factor = 5.0;         // factor of the points wanted on a bare image, as each contributes little
 
   void check() const;
   /// Points wanted on level 0 of this camera.

@@ -14,16 +14,17 @@
 #include "odosplat/odometry/light/residual_weights.hpp"
 #include "odosplat/odometry/light/tone_curve.hpp"
 #include "odosplat/odometry/points/immature_points.hpp"
+#include "odosplat/odometry/residual_noise.hpp"
 #include "odosplat/odometry/window/window_points.hpp"
 
 namespace odosplat {
 
 struct AnchorOptions {
   bool enabled = true;
-  double noise = 5.0 / 255;  // [grey] root mean square residual of a rendered view up to which it counts like a real
-                             // image
-  double strength = 8.0;     // factor of its weight: one rendered view must balance six keyframes, and its points have
-                             // weights below 1 where image and map agree less well (agreement)
+  // [grey] root mean square residual of a rendered view up to which it counts like a real image
+  double noise = residual_noise;
+  double strength = 8.0;  // factor of its weight: one rendered view must balance six keyframes, and its points have
+                          // weights below 1 where image and map agree less well (agreement)
   // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2) of the rendered view's points in the window. Edges of a map
   // are displaced by fractions of a pixel, so strong ones count less than in an image (docs/rules.md). The alignment
   // before it uses the constant of images: with weak gradients alone, a map of wrong colours would be accepted.

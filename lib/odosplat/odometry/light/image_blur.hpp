@@ -8,12 +8,13 @@
 
 #include "odosplat/odometry/frame/frame.hpp"
 #include "odosplat/odometry/light/brightness_splines.hpp"
+#include "odosplat/odometry/residual_noise.hpp"
 
 namespace odosplat {
 
 struct BlurOptions {
   bool enabled = true;
-  double huber = 9.0 / 255;  // [grey] residuals beyond weigh less
+  double huber = residual_huber;  // [grey] residuals beyond weigh less
   // [px^2] of the larger variance, below which a blur is ignored. Sharp images of the camera that the map was made with
   // reach 0.3 at most, a blur over 5 px 0.6 to 1.2 at the first step.
   double least = 0.5;

@@ -7,6 +7,7 @@
 #include "odosplat/core/se3.hpp"
 #include "odosplat/odometry/frame/frame.hpp"
 #include "odosplat/odometry/frame/tracking_reference.hpp"
+#include "odosplat/odometry/residual_noise.hpp"
 
 namespace odosplat {
 
@@ -16,15 +17,15 @@ using RowGain = std::vector<float>;
 
 struct RowGainOptions {
   bool enabled = true;
-  int spans = 8;             // of a uniform cubic B-spline over the rows
-  double sigma = 0.1;        // prior of the difference of neighbouring coefficients around 0
-  double noise = 5.0 / 255;  // [grey] of one residual
-  double huber = 9.0 / 255;  // [grey] residuals beyond weigh less
-  double least = 0.03;       // root mean square over the rows, below which a row gain is rejected: reflections and
-                             // errors of the map look like a small one
-  double explained = 0.5;    // cost with a row gain over the cost without one, above which it is rejected, too: a wrong
-                             // pose or a damaged map also looks like a row gain, but is not explained by one
-  double same = 0.003;       // root mean square change below which the image is not aligned again
+  int spans = 8;                  // of a uniform cubic B-spline over the rows
+  double sigma = 0.1;             // prior of the difference of neighbouring coefficients around 0
+  double noise = residual_noise;  // [grey] of one residual
+  double huber = residual_huber;  // [grey] residuals beyond weigh less
+  double least = 0.03;            // root mean square over the rows, below which a row gain is rejected: reflections and
+                                  // errors of the map look like a small one
+  double explained = 0.5;  // cost with a row gain over the cost without one, above which it is rejected, too: a wrong
+                           // pose or a damaged map also looks like a row gain, but is not explained by one
+  double same = 0.003;     // root mean square change below which the image is not aligned again
 
   void check() const;
 };

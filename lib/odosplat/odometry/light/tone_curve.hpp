@@ -8,16 +8,17 @@
 #include "odosplat/core/se3.hpp"
 #include "odosplat/odometry/frame/frame.hpp"
 #include "odosplat/odometry/frame/tracking_reference.hpp"
+#include "odosplat/odometry/residual_noise.hpp"
 
 namespace odosplat {
 
 struct ToneOptions {
   bool enabled = true;
-  int spans = 6;             // of a uniform cubic B-spline over the grey values
-  double sigma = 0.05;       // [grey] prior of the difference of neighbouring coefficients around 0
-  double noise = 5.0 / 255;  // [grey] of one residual
-  double huber = 9.0 / 255;  // [grey] residuals beyond weigh less
-  double least = 2.0 / 255;  // [grey] root mean square over the points, below which a curve is ignored
+  int spans = 6;                  // of a uniform cubic B-spline over the grey values
+  double sigma = 0.05;            // [grey] prior of the difference of neighbouring coefficients around 0
+  double noise = residual_noise;  // [grey] of one residual
+  double huber = residual_huber;  // [grey] residuals beyond weigh less
+  double least = 2.0 / 255;       // [grey] root mean square over the points, below which a curve is ignored
   // Cost with a curve over the cost without one, above which the curve is rejected. A map and images of the same camera
   // reach 0.85 and more, also with pieces of the map moved or deleted; with a gamma of 0.6 between them, most keyframes
   // reach 0.1 to 0.5.

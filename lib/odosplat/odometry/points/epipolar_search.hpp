@@ -8,17 +8,18 @@
 #include "odosplat/core/se3.hpp"
 #include "odosplat/odometry/frame/frame.hpp"
 #include "odosplat/odometry/points/immature_point.hpp"
+#include "odosplat/odometry/residual_noise.hpp"
 
 namespace odosplat {
 
 struct EpipolarSearchOptions {
-  double max_length = 0.06;     // of width + height: no search is longer
-  double min_length = 1.5;      // [px] shorter intervals are known well enough
-  double huber = 9.0 / 255;     // [grey]
-  double outlier = 14.0 / 255;  // [grey] the best match may differ this much on average
-  double location_error = 0.2;  // [px] of a match along a line that runs with the gradient
-  double max_error = 10.0;      // [px] matches less certain are useless
-  double min_scale = 0.66;      // of the pattern between the two images; beyond, it no longer looks the same
+  double max_length = 0.06;          // of width + height: no search is longer
+  double min_length = 1.5;           // [px] shorter intervals are known well enough
+  double huber = residual_huber;     // [grey]
+  double outlier = pattern_outlier;  // [grey] the best match may differ this much on average
+  double location_error = 0.2;       // [px] of a match along a line that runs with the gradient
+  double max_error = 10.0;           // [px] matches less certain are useless
+  double min_scale = 0.66;           // of the pattern between the two images; beyond, it no longer looks the same
   double max_scale = 1.5;
   int distinct_radius = 2;  // [px] least distance between the best match and the one that counts as second best
 

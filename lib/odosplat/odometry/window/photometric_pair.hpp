@@ -9,13 +9,15 @@
 #include "odosplat/camera/camera.hpp"
 #include "odosplat/core/se3.hpp"
 #include "odosplat/odometry/keyframe/keyframe.hpp"
+#include "odosplat/odometry/residual_noise.hpp"
 
 namespace odosplat {
 
 struct PhotometricOptions {
-  double noise = 5.0 / 255;     // [grey] standard deviation of a residual
-  double huber = 9.0 / 255;     // [grey] residuals beyond weigh less
-  double outlier = 14.0 / 255;  // [grey] a point whose pattern differs more than this on average counts as occluded
+  double noise = residual_noise;  // [grey] standard deviation of a residual
+  double huber = residual_huber;  // [grey] residuals beyond weigh less
+  double outlier =
+      pattern_outlier;  // [grey] a point whose pattern differs more than this on average counts as occluded
 
   void check() const;
 };

@@ -9,6 +9,7 @@
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/odometry/keyframe/keyframe.hpp"
 #include "odosplat/odometry/points/pixel_selector.hpp"
+#include "odosplat/odometry/residual_noise.hpp"
 
 namespace odosplat {
 
@@ -28,10 +29,10 @@ std::string to_string(DepthUse use);
 struct WindowPointOptions {
   /// docs/rules.md compares the ways.
   DepthUse depth_use = DepthUse::pose_aware_prior;
-  int points = 350;                     // wanted of a keyframe, for the window's adjustment
-  int anchor_points = 700;              // wanted of a rendered view
-  double gradient_weight = 50.0 / 255;  // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2)
-  double min_alpha = 0.9;               // a rendered pixel must be covered this much to serve as anchor
+  int points = 350;                                   // wanted of a keyframe, for the window's adjustment
+  int anchor_points = 700;                            // wanted of a rendered view
+  double gradient_weight = gradient_weight_constant;  // [grey/px] c of the weight c^2 / (c^2 + |gradient|^2)
+  double min_alpha = 0.9;                             // a rendered pixel must be covered this much to serve as anchor
 
   void check() const;
 };
