@@ -8,9 +8,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -18,25 +15,18 @@
 #include <string>
 #include <vector>
 
-#include "tests/locations.hpp"
+#include "tests/house/repository.hpp"
 
 namespace {
 
-namespace fs = std::filesystem;
+using namespace odosplat::test::house;
 using Names = std::set<std::string>;
-
-const fs::path root = odosplat::test::source_dir();
 
 struct Room {
   std::string folder;
   Names rooms;      // other folders that it may use
   Names libraries;  // external libraries that it may use: first part of their include paths
 };
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 std::vector<std::string> columns_of(const std::string& row) {
   std::vector<std::string> columns;
@@ -98,14 +88,6 @@ std::string library_of(const std::string& include) {
   if (include.rfind("nanoflann", 0) == 0) return "nanoflann";
   if (include.rfind("vtk", 0) == 0) return "vtk";
   return "";
-}
-
-// File of a quoted include, relative to lib or to the repository; empty: not found.
-fs::path file_of(const std::string& include) {
-  for (const fs::path& base : {root / "lib", root}) {
-    if (fs::is_regular_file(base / include)) return base / include;
-  }
-  return {};
 }
 
 std::vector<std::string> quoted_includes_of(const std::string& text) {
@@ -300,29 +282,6 @@ TEST(House, ModulesDoNotKnowTheOdometry) {
       EXPECT_NE(include, "odosplat/odometry/odometry.hpp") << file << ": modules do not know the whole";
     }
   }
-}
-
-// All paths in the documents, in `code` or as [link](target), must exist.
-TEST(House, DocumentsNameWhatExists) {
-  static const std::regex path(R"re([`(]((?:lib|kernels|apps|viewer|tests|data|docs)/[\w./-]*)[`)])re");
-  int named = 0;
-  std::vector<fs::path> documents{root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md",
-                                  root / "data/README.md"};
-  for (const auto& entry : fs::directory_iterator(root / "docs")) documents.push_back(entry.path());
-  for (const fs::path& document : documents) {
-    const std::string text = text_of(document);
-    for (std::sregex_iterator it(text.begin(), text.end(), path), end; it != end; ++it, ++named) {
-      const std::string name = (*it)[1];
-      EXPECT_TRUE(fs::exists(root / name)) << document << " names " << name;
-    }
-  }
-  EXPECT_GT(named, 30);
-}
-
-// The README must be short; details are in docs.
-TEST(House, TheReadmeIsShort) {
-  const std::string text = text_of(root / "README.md");
-  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 120);
 }
 
 // Text from files must be escaped before it is written to a terminal: only these files write to it. The example of a
