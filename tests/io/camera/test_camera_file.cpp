@@ -80,6 +80,49 @@ TEST(CameraFile, RoundTripKeepsEveryBit) {
   EXPECT_EQ(read.vignette, file.vignette);
 }
 
+const std::string depth_camera_lines =
+    "depth_camera:\n  width: 24\n  height: 18\n  fx: 22\n  fy: 23\n  cx: 12\n  cy: 9\n"
+    "  T_color_depth: [-0.025, 0.001, 0.002, 0, 0, 0, 1]\n";
+
+TEST(CameraFile, ADepthCameraIsReadAndWritten) {
+  const CameraFile file = parse_camera_file("c", with("fx: 20") + "\n" + depth_camera_lines + "  time_offset: -0.01\n");
+  ASSERT_TRUE(file.depth_camera.has_value());
+  EXPECT_EQ(file.depth_camera->camera, (Camera{24, 18, 22, 23, 12, 9}));
+  EXPECT_EQ(file.depth_camera->T_color_depth.translation(), Eigen::Vector3d(-0.025, 0.001, 0.002));
+  EXPECT_EQ(file.depth_camera->time_offset, -0.01);
+  const TempFolder temp;
+  CameraFile turned = file;
+  turned.depth_camera->T_color_depth = SE3(so3_exp({0.1, -0.2, 0.3}), {1.0 / 3.0, 0.0, -1e-9});
+  write_camera_file(temp / "camera.yaml", turned);
+  const CameraFile read = read_camera_file(temp / "camera.yaml");
+  ASSERT_TRUE(read.depth_camera.has_value());
+  EXPECT_EQ(read.depth_camera->camera, file.depth_camera->camera);
+  EXPECT_EQ(read.depth_camera->T_color_depth.translation(), turned.depth_camera->T_color_depth.translation());
+  EXPECT_LT((read.depth_camera->T_color_depth.inverse() * turned.depth_camera->T_color_depth).log().norm(), 1e-14);
+  EXPECT_EQ(read.depth_camera->time_offset, -0.01);
+}
+
+TEST(CameraFile, ADepthCameraThatIsWrongIsRefused) {
+  const auto fault = [](const std::string& from, const std::string& to, const std::string& camera = "fx: 20") {
+    std::string lines = depth_camera_lines;
+    lines.replace(lines.find(from), from.size(), to);
+    return error_of([&] { parse_camera_file("c.yaml", with(camera) + "\n" + lines); });
+  };
+  EXPECT_EQ(fault("  fx: 22\n", ""), "c.yaml: depth_camera.fx: is missing");
+  EXPECT_EQ(fault("fx: 22", "fx: much"), "c.yaml: depth_camera.fx: is not a number");
+  EXPECT_EQ(fault("fx: 22", "fx: -22"), "c.yaml: depth_camera.fx: must be positive, is -22");
+  EXPECT_EQ(fault("fx: 22", "fx: 22\n  fx: 22").find("c.yaml: depth_camera.fx: is given twice"), 0U);
+  EXPECT_EQ(fault("cx: 12", "cx: 12\n  depth_scale: 3"), "c.yaml: depth_camera.depth_scale: is not a known key");
+  EXPECT_EQ(fault("0, 0, 0, 1]", "0, 0, 1]"),
+            "c.yaml: depth_camera.T_color_depth: must hold 7 numbers (tx ty tz qx qy qz qw), holds 6");
+  EXPECT_EQ(fault("0, 0, 0, 1]", "0, 0, 0, 3]"),
+            "c.yaml: depth_camera.T_color_depth: the quaternion has length 3, must be near 1 (0.5..2)");
+  EXPECT_EQ(fault("-0.025", "-25"), "c.yaml: depth_camera.T_color_depth: its translation must be at most 10 m, is 25");
+  EXPECT_EQ(fault("width: 24", "width: 24", "fy: -20"), "c.yaml: depth_camera: does not go with a negative fy");
+  EXPECT_EQ(error_of([&] { parse_camera_file("c.yaml", with("fx: 20") + "\ndepth_camera: 3\n"); }),
+            "c.yaml: depth_camera: is not a list of `key: value` lines");
+}
+
 TEST(CameraFile, AKeyGivenTwiceIsRefused) {
   EXPECT_EQ(error_of([&] {
               parse_camera_file("c.yaml", with("fx: 20") + "\nfx: 21\n");

@@ -450,10 +450,17 @@ TEST(SequenceSevenScenes, IsFoundFromTheSceneAndTheSequence) {
   for (const char* path : {"redkitchen", "redkitchen/seq-01", "redkitchen/seq-01/"}) {
     const Sequence s = Sequence::open(temp / path);
     EXPECT_EQ(s.layout(), "sevenscenes");
-    EXPECT_EQ(s.camera(), (Camera{640, 480, 585, 585, 320, 240}));
+    EXPECT_EQ(s.camera(), (Camera{640, 480, 525, 525, 320, 240}));
     ASSERT_EQ(s.size(), 3U);
-    EXPECT_EQ(s.T_world_camera(2)->translation(), Eigen::Vector3d(2, 2, 3));
-    EXPECT_NEAR(s.depth(2)(0, 0), 1.2F, 1e-6F);
+    // The pose is of the depth camera, which is 2.6 cm to the left of the colour camera and turned by 0.65 degrees.
+    const SE3 T_depth_color = SE3(Eigen::Quaterniond::Identity(), {2, 2, 3}).inverse() * *s.T_world_camera(2);
+    EXPECT_NEAR(T_depth_color.translation().norm(), 0.02564, 1e-5);
+    EXPECT_GT(T_depth_color.translation().x(), 0.025);
+    EXPECT_NEAR(T_depth_color.angle() * 180.0 / 3.14159265, 0.669, 0.01);
+    const DepthImage depth = s.depth(2);
+    ASSERT_EQ(depth.size(), cv::Size(640, 480));
+    EXPECT_NEAR(depth(240, 320), 1.2F, 0.01F);
+    EXPECT_EQ(depth(240, 639), 0.0F);  // the colour camera sees more
   }
   EXPECT_EQ(Sequence::open(temp / "redkitchen/seq-01/").name(), "seq-01");
   temp.put("redkitchen/seq-01/frame-000001.pose.txt", "1 0 0 0\n0 no 0 0\n0 0 1 0\n0 0 0 1\n");

@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
             "aug_icl_livingroom1_redwood", "redwood", 30, 30, {640, 480, 525, 525, 319.5, 239.5}, 1, 1000, 0, 20, 1.5},
         Facts{"7scenes_redkitchen", "tum", 160, 240, {320, 240, 292.5, 292.5, 159.75, 119.75}, 1, 1000, 40, 50, 12.0},
         Facts{
-            "7scenes_redkitchen_official", "sevenscenes", 12, 12, {640, 480, 585, 585, 320, 240}, 1, 1000, 0, 10, 12.0},
+            "7scenes_redkitchen_official", "sevenscenes", 12, 12, {640, 480, 525, 525, 320, 240}, 1, 1000, 0, 10, 12.0},
         Facts{"tum_fr1_rpy_short",
               "tum",
               8,

@@ -106,6 +106,25 @@ void check_distortion(const Camera& camera, const std::vector<double>& distortio
                                      " px from cx, cy the lens shows two rays in one pixel, and beyond that none");
 }
 
+void check_depth_camera(const CameraFile& file) {
+  const DepthCamera& depth = *file.depth_camera;
+  try {
+    depth.camera.check();
+  } catch (const InputError& e) {
+    throw InputError(std::string("depth_camera.") + e.what());
+  }
+  const Eigen::Vector3d& t = depth.T_color_depth.translation();
+  if (!depth.T_color_depth.is_finite() || !(t.norm() <= camera_limits::most_baseline)) {
+    throw InputError("depth_camera.T_color_depth", "its translation must be at most " +
+                                                       number_text(camera_limits::most_baseline) + " m, is " +
+                                                       number_text(t.norm()));
+  }
+  require_range("depth_camera.time_offset", depth.time_offset, -camera_limits::most_time_offset,
+                camera_limits::most_time_offset);
+  // The sign says that the world is reflected, which a motion between two cameras cannot express.
+  if (file.fy_sign < 0) throw InputError("depth_camera", "does not go with a negative fy");
+}
+
 }  // namespace
 
 double fold_radius(const Camera& camera, const std::vector<double>& distortion) {
@@ -130,6 +149,7 @@ double fold_radius(const Camera& camera, const std::vector<double>& distortion) 
 void check_camera(const CameraFile& file) {
   file.camera.check();
   check_distortion(file.camera, file.distortion);
+  if (file.depth_camera) check_depth_camera(file);
   require_range("depth_scale", file.depth_scale, camera_limits::least_depth_scale, camera_limits::most_depth_scale);
   if (file.fps != 0.0) require_range("fps", file.fps, 1.0 / camera_limits::most_fps, camera_limits::most_fps);
   if (file.gamma != 0.0) require_range("gamma", file.gamma, camera_limits::least_gamma, camera_limits::most_gamma);

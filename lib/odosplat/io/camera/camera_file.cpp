@@ -28,6 +28,7 @@ std::string shown(std::string text) {
   return text;
 }
 
+/// Reads a map of keys, at the top or below a key; names of nested keys are shown with their place ("depth_camera.fx").
 class Reader {
  public:
   Reader(std::string name, const std::string& text) : name_(std::move(name)) {
@@ -47,6 +48,17 @@ class Reader {
   }
 
   bool has(const char* key) const { return static_cast<bool>(root_[key]); }
+
+  /// The map below a key.
+  Reader below(const char* key) const {
+    Reader reader;
+    reader.name_ = name_;
+    reader.place_ = place_ + key + ".";
+    reader.root_ = root_[key];
+    if (!reader.root_.IsMap()) fail(key, "is not a list of `key: value` lines");
+    reader.refuse_duplicates();
+    return reader;
+  }
 
   double number(const char* key) const {
     if (!has(key)) fail(key, "is missing");
@@ -80,10 +92,12 @@ class Reader {
   }
 
   [[noreturn]] void fail(const std::string& key, const std::string& fault) const {
-    throw InputError(name_, key, fault);
+    throw InputError(name_, place_ + key, fault);
   }
 
  private:
+  Reader() = default;
+
   double number(const char* key, const YAML::Node& node) const {
     double value = 0.0;
     if (!node.IsScalar() || !YAML::convert<double>::decode(node, value)) fail(key, "is not a number");
@@ -105,8 +119,39 @@ class Reader {
   }
 
   std::string name_;
+  std::string place_;
   YAML::Node root_;
 };
+
+Camera read_camera(const Reader& reader) {
+  Camera c;
+  c.width = reader.integer("width");
+  c.height = reader.integer("height");
+  c.fx = reader.number("fx");
+  c.fy = reader.number("fy");
+  c.cx = reader.number("cx");
+  c.cy = reader.number("cy");
+  return c;
+}
+
+DepthCamera read_depth_camera(const Reader& reader) {
+  DepthCamera depth;
+  depth.camera = read_camera(reader);
+  if (!reader.has("T_color_depth")) reader.fail("T_color_depth", "is missing");
+  const std::vector<double> pose = reader.numbers("T_color_depth");
+  if (pose.size() != 7) {
+    reader.fail("T_color_depth", "must hold 7 numbers (tx ty tz qx qy qz qw), holds " + std::to_string(pose.size()));
+  }
+  try {
+    const Eigen::Quaterniond q = rotation_from_text({pose[6], pose[3], pose[4], pose[5]});
+    depth.T_color_depth = SE3(q, {pose[0], pose[1], pose[2]});
+  } catch (const InputError& e) {
+    reader.fail("T_color_depth", e.what());
+  }
+  if (reader.has("time_offset")) depth.time_offset = reader.number("time_offset");
+  reader.refuse_unknown({"width", "height", "fx", "fy", "cx", "cy", "T_color_depth", "time_offset"});
+  return depth;
+}
 
 // The shortest text that is read back as the same bits.
 std::string shortest(double value) {
@@ -130,16 +175,10 @@ std::string quoted(const std::string& text) {
 CameraFile parse_camera_file(const std::string& name, const std::string& text) {
   const Reader reader(name, text);
   CameraFile file;
-  Camera& c = file.camera;
-  c.width = reader.integer("width");
-  c.height = reader.integer("height");
-  c.fx = reader.number("fx");
-  c.fy = reader.number("fy");
-  c.cx = reader.number("cx");
-  c.cy = reader.number("cy");
-  if (c.fy < 0.0) {
+  file.camera = read_camera(reader);
+  if (file.camera.fy < 0.0) {
     file.fy_sign = -1;
-    c.fy = -c.fy;
+    file.camera.fy = -file.camera.fy;
   }
   if (reader.has("depth_scale")) {
     file.depth_scale = reader.number("depth_scale");
@@ -160,8 +199,9 @@ CameraFile parse_camera_file(const std::string& name, const std::string& text) {
     if (file.gamma <= 0.0) reader.fail("gamma", "must be positive");
   }
   if (reader.has("vignette")) file.vignette = reader.text("vignette");
-  reader.refuse_unknown(
-      {"width", "height", "fx", "fy", "cx", "cy", "depth_scale", "distortion", "fps", "gamma", "vignette"});
+  if (reader.has("depth_camera")) file.depth_camera = read_depth_camera(reader.below("depth_camera"));
+  reader.refuse_unknown({"width", "height", "fx", "fy", "cx", "cy", "depth_scale", "distortion", "fps", "gamma",
+                         "vignette", "depth_camera"});
   check_camera(name, file);
   return file;
 }
@@ -197,6 +237,24 @@ void write_camera_file(const std::string& path, const CameraFile& file) {
   if (file.fps > 0.0) line("fps", shortest(file.fps));
   if (file.gamma > 0.0) line("gamma", shortest(file.gamma));
   if (!file.vignette.empty()) line("vignette", quoted(file.vignette));
+  if (file.depth_camera) {
+    const Camera& camera = file.depth_camera->camera;
+    const Eigen::Vector3d& t = file.depth_camera->T_color_depth.translation();
+    const Eigen::Quaterniond& q = file.depth_camera->T_color_depth.rotation();
+    text += "depth_camera:\n";
+    line("  width", std::to_string(camera.width));
+    line("  height", std::to_string(camera.height));
+    line("  fx", shortest(camera.fx));
+    line("  fy", shortest(camera.fy));
+    line("  cx", shortest(camera.cx));
+    line("  cy", shortest(camera.cy));
+    std::string pose;
+    for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
+      pose += (pose.empty() ? "[" : ", ") + shortest(value);
+    }
+    line("  T_color_depth", pose + "]");
+    if (file.depth_camera->time_offset != 0.0) line("  time_offset", shortest(file.depth_camera->time_offset));
+  }
   write_file_atomically(path, text);
 }
 

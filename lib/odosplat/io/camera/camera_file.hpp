@@ -9,14 +9,14 @@
 namespace odosplat {
 
 /// Throws InputError(file, key, fault): a key missing, unknown or given twice, a value that is not a number or not
-/// finite, several YAML documents, a number of distortion coefficients other than 4 or 5, and everything that
-/// check_camera refuses; when reading from a path also if the vignette's file does not exist.
+/// finite, several YAML documents, a number of distortion coefficients other than 4 or 5, a T_color_depth
+/// without rotation, and everything that check_camera refuses; when reading from a path also if the vignette's file does not exist.
 CameraFile read_camera_file(const std::string& path);
 /// The same from text; `name` stands for the file in errors.
 CameraFile parse_camera_file(const std::string& name, const std::string& text);
 
 /// Writes width .. cy, depth_scale and the other values that are set; numbers are written so that reading restores the
-/// same bits. Throws InputError if the path cannot be written.
+/// same bits (a rotation: to rounding). Throws InputError if the path cannot be written.
 void write_camera_file(const std::string& path, const CameraFile& file);
 
 }  // namespace odosplat

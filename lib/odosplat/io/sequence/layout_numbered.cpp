@@ -159,12 +159,29 @@ SequenceIndex index_redwood(const std::string& path, const SequenceOptions& opti
   return index;
 }
 
+namespace {
+
+// The cameras of 7-Scenes: the focal length of colour by structure from motion (Brachmann et al. 2021), the motion
+// between the two by a public calibration of a Kinect of the same kind, as DSAC* and ACE use it.
+CameraFile sevenscenes_camera() {
+  CameraFile file = published_camera(640, 480, 525.0, 525.0, 320.0, 240.0, 1000.0);
+  Eigen::Matrix3d R_color_depth;
+  R_color_depth << 9.9996518012567637e-01, 2.6765126468950343e-03, -7.9041012313000904e-03,  //
+      -2.7409311281316700e-03, 9.9996302803027592e-01, -8.1504520778013286e-03,              //
+      7.8819942130445332e-03, 8.1718328771890631e-03, 9.9993554558014031e-01;
+  const Eigen::Vector3d t_color_depth(-2.5558943178152542e-02, 1.0109636268061706e-04, 2.0318321729487039e-03);
+  file.depth_camera = DepthCamera{{640, 480, 585.0, 585.0, 320.0, 240.0}, SE3(R_color_depth, t_color_depth), 0.0};
+  return file;
+}
+
+}  // namespace
+
 SequenceIndex index_sevenscenes(const std::string& path, const SequenceOptions& options) {
   SequenceIndex index;
   const std::string folder = sevenscenes_folder(path);
   if (folder.empty()) throw InputError(path, "holds no frame-*.color.png and no seq-*");
-  const CameraFile published = published_camera(640, 480, 585.0, 585.0, 320.0, 240.0, 1000.0);
-  choose_camera(options, {folder, parent_of(folder)}, published, "the published camera of 7-Scenes",
+  const CameraFile published = sevenscenes_camera();
+  choose_camera(options, {folder, parent_of(folder)}, published, "the published cameras of 7-Scenes",
                 published.depth_scale, index);
   NumberedFiles files;
   files.color = numbered_images(folder, is_frame_color);
@@ -174,7 +191,10 @@ SequenceIndex index_sevenscenes(const std::string& path, const SequenceOptions& 
     if (!name.ends_with(".pose.txt")) continue;
     const long long number = number_in(name.substr(0, name.find('.')));
     if (number < 0) continue;
-    if (const std::optional<SE3> pose = read_pose_matrix(join(folder, name))) files.poses[number] = *pose;
+    const std::optional<SE3> T_world_depth = read_pose_matrix(join(folder, name));
+    if (!T_world_depth) continue;
+    const std::optional<DepthCamera>& depth_camera = index.camera.depth_camera;
+    files.poses[number] = depth_camera ? *T_world_depth * depth_camera->T_color_depth.inverse() : *T_world_depth;
   }
   const auto without = std::count_if(files.color.begin(), files.color.end(),
                                      [&](const auto& image) { return files.poses.count(image.first) == 0; });

@@ -56,6 +56,10 @@ std::size_t write_moved_sequence(const std::string& folder, const Sequence& sequ
   for (StampedPose& pose : truth) pose.T_world_camera = moved * pose.T_world_camera;
   CameraFile camera = sequence.camera_file();
   camera.depth_scale /= moved.scale;
+  if (camera.depth_camera) {
+    SE3& T = camera.depth_camera->T_color_depth;
+    T = SE3(T.rotation(), moved.scale * T.translation());
+  }
   if (!camera.vignette.empty()) camera.vignette = listed_path(camera.vignette);
   const MadeFolders made = ensure_output_folder(folder);
   write_camera_file(join(folder, "camera.yaml"), camera);

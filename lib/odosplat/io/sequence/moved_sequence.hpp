@@ -14,7 +14,8 @@ namespace odosplat {
 ///   groundtruth.txt  every pose of the sequence, transformed
 ///   rgb.txt          the frames that have a pose; the images stay where they are and are named by absolute path
 ///   depth.txt        their depth images, if any. Depth is taken to be in the unit of the poses: camera.yaml gets the
-///                    depth_scale of `sequence` divided by the scale of `moved`
+///                    depth_scale of `sequence` divided by the scale of `moved`, and the baseline of a depth_camera
+///                    times that
 ///   exposures.txt    their exposure times, if known
 ///   camera.yaml      the camera with its lens distortion and photometric calibration
 /// rgb.txt is written last. Returns the number of frames. Throws InputError: no frame has a pose, `sequence` is a video

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "odosplat/camera/register_depth.hpp"
 #include "odosplat/camera/undistort.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
@@ -21,6 +22,7 @@
 #include "odosplat/io/camera/camera_check.hpp"
 #include "odosplat/io/camera/photometric.hpp"
 #include "odosplat/io/image/image_file.hpp"
+#include "odosplat/io/sequence/layout_parts.hpp"
 #include "odosplat/io/sequence/layouts.hpp"
 #include "odosplat/io/sequence/sequence_index.hpp"
 #include "odosplat/io/text/file_names.hpp"
@@ -125,6 +127,12 @@ struct Sequence::Data {
   }
 
   void require_depth_size(const FrameFiles& files, const cv::Size& size) const {
+    if (index.camera.depth_camera) {
+      const Camera& camera = index.camera.depth_camera->camera;
+      if (size == cv::Size(camera.width, camera.height)) return;
+      throw InputError(files.depth, "is " + size_text(size) + ", the depth_camera of " + index.camera_source +
+                                        " is for " + size_text({camera.width, camera.height}));
+    }
     if (size == camera_size()) return;
     if (const cv::Size color = read_image_size(files.color, any_size()); color != size) {
       throw InputError(files.depth,
@@ -163,6 +171,17 @@ struct Sequence::Data {
     }
     const double gamma = index.camera.gamma > 0.0 ? index.camera.gamma : 1.0;
     photometric = PhotometricCorrection(gamma, vignette);
+  }
+
+  /// Poses at the times at which the depth camera took its images.
+  void shift_depth_times() {
+    if (!index.camera.depth_camera || index.camera.depth_camera->time_offset == 0.0) return;
+    for (FrameFiles& f : index.frames) {
+      if (f.depth.empty()) continue;
+      const double stamp = f.depth_time_text.empty() ? f.time : f.depth_time;
+      f.T_world_depth = pose_at(index.truth, stamp + index.camera.depth_camera->time_offset);
+      f.depth_untimed = !f.T_world_depth;
+    }
   }
 
   void require_near() const {
@@ -224,6 +243,7 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
     }
     for (StampedPose& pose : index.truth) pose.T_world_camera = reflected(pose.T_world_camera);
   }
+  data->shift_depth_times();
   data->require_near();
   const double listed_fps = median_fps(index.frames);
   data->fps = index.camera.fps > 0.0 ? index.camera.fps : listed_fps;
@@ -307,7 +327,7 @@ std::string Sequence::time_text(std::size_t i) const {
 std::optional<SE3> Sequence::T_world_camera(std::size_t i) const { return data_->frame(i).T_world_camera; }
 std::optional<SE3> Sequence::T_world_depth(std::size_t i) const {
   const FrameFiles& f = data_->frame(i);
-  return f.T_world_depth ? f.T_world_depth : f.T_world_camera;
+  return f.T_world_depth || f.depth_untimed ? f.T_world_depth : f.T_world_camera;
 }
 
 ColorImage Sequence::color(std::size_t i) const {
@@ -334,6 +354,9 @@ DepthImage Sequence::depth(std::size_t i) const {
     const std::uint16_t* from = raw[y];
     float* to = depth[y];
     for (int x = 0; x < raw.cols; ++x) to[x] = from[x] == 65535 ? 0.0F : static_cast<float>(from[x] * metres);
+  }
+  if (const std::optional<DepthCamera>& other = data_->index.camera.depth_camera; other) {
+    return registered_depth(depth, other->camera, other->T_color_depth, camera());
   }
   return data_->undistorter.depth(depth);
 }

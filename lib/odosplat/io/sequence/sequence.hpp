@@ -31,7 +31,9 @@ namespace odosplat {
 ///   redwood      *-color, *-depth*, *-traj.txt or *.log: image number k has pose k. fx fy cx cy: 525 525 319.5 239.5;
 ///                depth 1000 units per metre.
 ///   sevenscenes  frame-NNNNNN.{color.png|color.jpg,depth.png,pose.txt} in the folder or in its only seq-NN.
-///                fx fy cx cy: 585 585 320 240; depth 1000 units per metre.
+///                Two cameras as published: colour 525 525 320 240, depth 585 585 320 240 at 1000 units per metre,
+///                with the motion between them. The poses are the depth camera's: if the camera file in use has a
+///                depth_camera, as the published one has, they are moved to the colour camera.
 ///   replica      results/frameN.jpg, results/depthN.png, traj.txt; cam_params.json there or one folder above.
 ///   colmap       a COLMAP model (cameras, images and points3D as .bin or .txt) in the folder, in sparse or in
 ///                sparse/0; images in the folder images, in the folder itself, or in images one or two folders above.
@@ -58,6 +60,9 @@ namespace odosplat {
 /// Lens distortion of the camera file is removed as images are read: colour bilinear, depth nearest, same size and
 /// focal lengths; pixels that the distorted image does not cover are 0. Where fy is negative (ICL-NUIM) poses are
 /// reflected, T' = F T F with F = diag(1, -1, 1), so that they belong to camera(), whose fy is positive.
+///
+/// Depth images of another camera (depth_camera in the camera file) are registered to the colour images as they are
+/// read (registered_depth); their own time offset is part of T_world_depth.
 ///
 /// Photometric calibration is applied before that (PhotometricCorrection): vignette and gamma of the camera file, and
 /// exposure times of exposures.txt or DSO's times.txt in the sequence's folder, so that colours are those of a camera
@@ -96,8 +101,9 @@ class Sequence {
   std::string time_text(std::size_t i) const;
   std::optional<SE3> T_world_camera(std::size_t i) const;
   /// The same at the time of the frame's depth image: sensors that capture colour and depth alternately (TUM) have
-  /// stamps up to 20 ms apart, in which points can shift by centimetres during a fast turn. Equal to T_world_camera(i)
-  /// if there is only one stamp.
+  /// stamps up to 20 ms apart, in which points can shift by centimetres during a fast turn. With a time offset of the
+  /// depth camera: at the stamp of the depth image plus that. Equal to T_world_camera(i) if there is only one stamp and
+  /// no offset.
   std::optional<SE3> T_world_depth(std::size_t i) const;
   /// All poses of the data set, at their own rate, reflected like T_world_camera.
   const Trajectory& truth() const;
@@ -125,8 +131,9 @@ class Sequence {
   GrayImage gray(std::size_t i) const;
   /// True if frame i has a depth image; false for all frames if none of the listed depth files exists.
   bool has_depth(std::size_t i) const;
-  /// z [m], 0 = no depth; the values 0 and 65535 of a file mean no depth. InputError if !has_depth(i), if the file is
-  /// missing or damaged, or if its size is not the colour image's.
+  /// z [m], 0 = no depth; the values 0 and 65535 of a file mean no depth. Registered to the colour images if the camera
+  /// file has a depth_camera. InputError if !has_depth(i), if the file is missing or damaged, or if its size is not the
+  /// colour image's (the depth camera's).
   DepthImage depth(std::size_t i) const;
 
  private:
