@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "odosplat/camera/register_depth.hpp"
 #include "odosplat/camera/undistort.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
@@ -141,6 +142,10 @@ void camera_file(const std::string& bytes) {
     const Undistorter undistorter(file.camera, file.distortion);
     undistorter.depth(DepthImage(file.camera.height, file.camera.width, 1.0F));
     undistorter.color(ColorImage(file.camera.height, file.camera.width, cv::Vec3f(1.0F, 1.0F, 1.0F)));
+    if (!file.depth_camera) return;
+    const Camera& depth = file.depth_camera->camera;
+    if (depth.width * depth.height > 10000) return;
+    registered_depth(DepthImage(depth.height, depth.width, 1.0F), depth, file.depth_camera->T_color_depth, file.camera);
   });
 }
 
