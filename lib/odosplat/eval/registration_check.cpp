@@ -314,7 +314,7 @@ RegistrationReport check_registration(const RegistrationInput& input, const Regi
   } else if (misfit > options.clear * camera.width && misfit > options.sure * misfit_sigma) {
     report.registered = false;
     report.text = "colour and depth are not of one camera: " + std::string(text) +
-                  " (another focal length, or depth not registered to colour)";
+                  " (another focal length, or depth that is not registered to colour: see depth_camera of camera.yaml)";
   } else if (misfit <= options.tolerance * camera.width) {
     report.registered = true;
     report.text = "colour and depth are of one camera: " + std::string(text);
