@@ -2,128 +2,20 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/io/camera/camera_file.hpp"
 
-#include <yaml-cpp/yaml.h>
-
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <filesystem>
-#include <map>
-#include <set>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/camera/camera_check.hpp"
+#include "odosplat/io/camera/camera_of_others.hpp"
+#include "odosplat/io/camera/camera_yaml.hpp"
 #include "odosplat/io/text/file_names.hpp"
 
 namespace odosplat {
 namespace {
 
-constexpr std::size_t max_size = 1 << 20;
-
-// Text for a one-line error: quoted keys and the parser's messages may contain line ends.
-std::string shown(std::string text) {
-  text.resize(std::min<std::size_t>(text.size(), 80));
-  for (char& c : text) c = static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-  return text;
-}
-
-/// Reads a map of keys, at the top or below a key; names of nested keys are shown with their place ("depth_camera.fx").
-class Reader {
- public:
-  Reader(std::string name, const std::string& text) : name_(std::move(name)) {
-    if (text.size() > max_size) throw InputError(name_, "is too long for a camera file");
-    try {
-      // Not Load(), which reads the first of several documents and ignores the others without an error.
-      const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-      if (documents.size() > 1) {
-        fail("content", "holds " + std::to_string(documents.size()) + " YAML documents (`---`), must hold one");
-      }
-      if (!documents.empty()) root_ = documents.front();
-    } catch (const YAML::Exception& e) {
-      fail("line " + std::to_string(e.mark.line + 1), shown(e.msg));
-    }
-    if (!root_.IsMap()) fail("content", "is not a list of `key: value` lines");
-    refuse_duplicates();
-  }
-
-  bool has(const char* key) const { return static_cast<bool>(root_[key]); }
-
-  /// The map below a key.
-  Reader below(const char* key) const {
-    Reader reader;
-    reader.name_ = name_;
-    reader.place_ = place_ + key + ".";
-    reader.root_ = root_[key];
-    if (!reader.root_.IsMap()) fail(key, "is not a list of `key: value` lines");
-    reader.refuse_duplicates();
-    return reader;
-  }
-
-  double number(const char* key) const {
-    if (!has(key)) fail(key, "is missing");
-    return number(key, root_[key]);
-  }
-
-  int integer(const char* key) const {
-    const double value = number(key);
-    if (value != std::floor(value) || std::abs(value) > 1e6) fail(key, "is not a whole number in range");
-    return static_cast<int>(value);
-  }
-
-  std::vector<double> numbers(const char* key) const {
-    const YAML::Node list = root_[key];
-    if (!list.IsSequence()) fail(key, "is not a list");
-    std::vector<double> values;
-    for (const YAML::Node& item : list) values.push_back(number(key, item));
-    return values;
-  }
-
-  std::string text(const char* key) const {
-    if (!root_[key].IsScalar()) fail(key, "is not a text");
-    return root_[key].Scalar();
-  }
-
-  void refuse_unknown(const std::set<std::string>& known) const {
-    for (const auto& entry : root_) {
-      if (!entry.first.IsScalar()) fail("content", "has a key that is not a word");
-      if (known.count(entry.first.Scalar()) == 0) fail(shown(entry.first.Scalar()), "is not a known key");
-    }
-  }
-
-  [[noreturn]] void fail(const std::string& key, const std::string& fault) const {
-    throw InputError(name_, place_ + key, fault);
-  }
-
- private:
-  Reader() = default;
-
-  double number(const char* key, const YAML::Node& node) const {
-    double value = 0.0;
-    if (!node.IsScalar() || !YAML::convert<double>::decode(node, value)) fail(key, "is not a number");
-    if (!std::isfinite(value)) fail(key, "is not finite");
-    return value;
-  }
-
-  // The parser accepts duplicate keys: it keeps both entries and returns one of them.
-  void refuse_duplicates() const {
-    std::map<std::string, int> lines;
-    for (const auto& entry : root_) {
-      if (!entry.first.IsScalar()) continue;
-      const int line = entry.first.Mark().line + 1;
-      const auto [first, added] = lines.emplace(entry.first.Scalar(), line);
-      if (added) continue;
-      fail(shown(first->first),
-           "is given twice, in lines " + std::to_string(first->second) + " and " + std::to_string(line));
-    }
-  }
-
-  std::string name_;
-  std::string place_;
-  YAML::Node root_;
-};
-
-Camera read_camera(const Reader& reader) {
+Camera read_camera(const CameraYaml& reader) {
   Camera c;
   c.width = reader.integer("width");
   c.height = reader.integer("height");
@@ -134,7 +26,7 @@ Camera read_camera(const Reader& reader) {
   return c;
 }
 
-DepthCamera read_depth_camera(const Reader& reader) {
+DepthCamera read_depth_camera(const CameraYaml& reader) {
   DepthCamera depth;
   depth.camera = read_camera(reader);
   if (!reader.has("T_color_depth")) reader.fail("T_color_depth", "is missing");
@@ -173,7 +65,11 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 CameraFile parse_camera_file(const std::string& name, const std::string& text) {
-  const Reader reader(name, text);
+  const CameraYaml reader(name, text);
+  if (std::optional<CameraFile> other = read_camera_of_others(reader)) {
+    check_camera(name, *other);
+    return *other;
+  }
   CameraFile file;
   file.camera = read_camera(reader);
   if (file.camera.fy < 0.0) {
@@ -207,7 +103,7 @@ CameraFile parse_camera_file(const std::string& name, const std::string& text) {
 }
 
 CameraFile read_camera_file(const std::string& path) {
-  CameraFile file = parse_camera_file(path, read_file(path, max_size));
+  CameraFile file = parse_camera_file(path, read_file(path, max_camera_file_size));
   if (!file.vignette.empty()) {
     const std::string vignette = listed_file(std::filesystem::path(path).parent_path().string(), file.vignette);
     try {
