@@ -10,6 +10,7 @@
 #include "apps/command/output.hpp"
 #include "apps/input/map_views.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/core/near_origin.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
