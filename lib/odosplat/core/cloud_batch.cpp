@@ -15,8 +15,8 @@ Eigen::Vector3f round_point(const std::string& name, const Eigen::Vector3d& poin
   if (error <= max_error) return rounded;
   char fault[240];
   std::snprintf(fault, sizeof(fault),
-                "is too far from the origin: a point at %.6g %.6g %.6g would move by %.3g m in single precision; bring "
-                "it near with `odosplat cloud --from FILE --origin X Y Z`",
+                "is too far from the origin: a point at %.6g %.6g %.6g would move by %.3g m in single precision; shift "
+                "it with `odosplat cloud --from FILE --origin X Y Z`",
                 point.x(), point.y(), point.z(), error);
   throw InputError(name, fault);
 }

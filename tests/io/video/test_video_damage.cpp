@@ -69,7 +69,7 @@ TEST(VideoDamage, AnImageThatIsMissingIsToldAndThatTheStampsShift) {
   avi.replace(chunk(avi, 4).first - 8, 4, "JUNK");
   const Said said = read(temp.put("junk.avi", avi));
   EXPECT_EQ(said.size, frames - 1);
-  EXPECT_THAT(said.warnings, AllOf(HasSubstr("junk.avi: is damaged or cut off: 11 images are read, 1 that it promises "
+  EXPECT_THAT(said.warnings, AllOf(HasSubstr("junk.avi: is damaged or cut off: 11 images are read, 1 that the file declares "
                                              "are missing"),
                                    HasSubstr("those behind a missing one are too early")));
   // Without the index at the file's end, the number is in its header.
@@ -84,7 +84,7 @@ TEST(VideoDamage, AFileThatIsCutOffSaysHowMuchIsMissing) {
   const Said half = read(temp.put("half.avi", avi.substr(0, chunk(avi, 5).first + chunk(avi, 5).second / 2)));
   EXPECT_LE(half.size, 6U);
   EXPECT_GE(half.size, 5U);
-  EXPECT_THAT(half.warnings, AllOf(HasSubstr("half.avi: is damaged or cut off"), HasSubstr("that it promises")));
+  EXPECT_THAT(half.warnings, AllOf(HasSubstr("half.avi: is damaged or cut off"), HasSubstr("that the file declares")));
 }
 
 TEST(VideoDamage, ImagesWithoutDataAreCounted) {
