@@ -163,8 +163,9 @@ class Odometry {
   bool stands(const MapEvidence& evidence, const MisfitEffect& misfit, bool to_be_confirmed) const;
   /// Discards a tracked pose because of its comparison with the map, and looks the image up.
   void refuse(const GrayImage& image, const KeyframeRequest& request, TrackResult& result, const MapEvidence& evidence);
-  /// Decides whether a posed frame counts as in the map. If it does not although its keyframe has the map's depth,
-  /// drift is added to its covariance as for keyframes outside the map.
+  /// Decides whether a posed frame counts as in the map. If it does not although its keyframe has the map's depth, the
+  /// drift of one keyframe (before any factor) is added to its covariance for every frame since the map last confirmed
+  /// one.
   void judge(TrackResult& result);
   /// Asks for a keyframe and writes it into the result. False: there is none, or not yet.
   bool make_keyframe(const KeyframeRequest& request, TrackResult& result);
