@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "odosplat/core/upper_median.hpp"
 #include "odosplat/io/sequence/sequence.hpp"
 #include "odosplat/io/trajectory/trajectory_file.hpp"
 #include "tests/io/temp_folder.hpp"
@@ -157,6 +158,34 @@ TEST(SharedSevenScenes, AgreesWithTheReducedCopy) {
     EXPECT_LT((T_world_depth.inverse() * *b.T_world_camera(k)).log().norm(), 1e-5) << k;
     const DepthImage depth = a.depth(k);
     EXPECT_LT(*std::max_element(depth.begin(), depth.end()), 20.0F);  // 65535 means no depth
+  }
+}
+
+// The copy was registered by another program, at full size.
+TEST(SharedSevenScenes, DepthIsRegisteredAsInTheRegisteredCopy) {
+  SHARED_DATA_OR_SKIP(published, "7scenes_redkitchen");
+  SHARED_DATA_OR_SKIP(registered, "7scenes_redkitchen_registered");
+  const TempFolder temp;
+  SequenceOptions options;
+  options.camera_file = temp.put(
+      "c.yaml",
+      "width: 320\nheight: 240\nfx: 262.7525\nfy: 262.7525\ncx: 159.5\ncy: 119.5\ndepth_scale: 1000\n"
+      "depth_camera:\n  width: 320\n  height: 240\n  fx: 292.5\n  fy: 292.5\n  cx: 159.75\n  cy: 119.75\n"
+      "  T_color_depth: [-0.025558943, 0.000101096, 0.002031832, 0.0040806, -0.0039465, -0.0013544, 0.9999829]\n");
+  const Sequence a = Sequence::open(published, options);
+  const Sequence b = Sequence::open(registered);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{80}, std::size_t{159}}) {
+    const DepthImage ours = a.depth(k);
+    const DepthImage theirs = b.depth(k);
+    ASSERT_EQ(ours.size(), theirs.size());
+    std::vector<float> differences;
+    for (int y = 0; y < ours.rows; ++y) {
+      for (int x = 0; x < ours.cols; ++x) {
+        if (ours(y, x) > 0.0F && theirs(y, x) > 0.0F) differences.push_back(std::abs(ours(y, x) - theirs(y, x)));
+      }
+    }
+    ASSERT_GT(differences.size(), static_cast<std::size_t>(cv::countNonZero(theirs)) * 8 / 10);
+    EXPECT_LT(upper_median(differences), 0.004F) << k;
   }
 }
 
