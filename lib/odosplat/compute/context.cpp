@@ -83,6 +83,7 @@ ContextImpl::~ContextImpl() {
 Context Context::open(const std::string& selector) {
   const std::vector<FoundDevice> found = find_devices();
   std::vector<DeviceInfo> infos;
+  infos.reserve(found.size());
   for (const FoundDevice& d : found) infos.push_back(d.info);
   const DeviceInfo& chosen = choose_device(infos, selector);
   if (chosen.platform == "Portable Computing Language") {
