@@ -32,7 +32,7 @@ std::vector<Vertex> project(const DepthImage& depth, const Camera& depth_camera,
                             const Camera& color_camera) {
   std::vector<Vertex> vertices(depth.total());
   const Eigen::Matrix3d R = T_color_depth.rotation_matrix();
-  const Eigen::Vector3d t = T_color_depth.translation();
+  const Eigen::Vector3d& t = T_color_depth.translation();
   for (int y = 0; y < depth.rows; ++y) {
     for (int x = 0; x < depth.cols; ++x) {
       const float z = depth(y, x);

@@ -10,7 +10,7 @@ namespace odosplat {
 
 Eigen::Vector3f round_point(const std::string& name, const Eigen::Vector3d& point) {
   constexpr double max_error = 1e-3;  // [m]
-  const Eigen::Vector3f rounded = point.cast<float>();
+  Eigen::Vector3f rounded = point.cast<float>();
   const double error = (rounded.cast<double>() - point).cwiseAbs().maxCoeff();
   if (error <= max_error) return rounded;
   char fault[240];

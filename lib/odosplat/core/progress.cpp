@@ -38,7 +38,7 @@ std::optional<double> TimeLeft::update(long done, double now) {
   return seconds * static_cast<double>(total_ - done) / static_cast<double>(steps);
 }
 
-Progress::Progress(std::string what, long total)
+Progress::Progress(const std::string& what, long total)
     : what_(printable_line(what)),
       total_(total),
       shown_(logs_info()),

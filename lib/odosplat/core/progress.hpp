@@ -30,7 +30,7 @@ class TimeLeft {
 class Progress {
  public:
   /// what: a word or two ("train"). total >= 0 steps; the time left follows from the steps after the first update.
-  Progress(std::string what, long total);
+  Progress(const std::string& what, long total);
   /// Ends the line; also done by the destructor.
   ~Progress();
   Progress(const Progress&) = delete;

@@ -74,6 +74,7 @@ CameraFile common_camera(const std::string& file, const std::vector<ImageCamera>
   if (!any_differs) return common;
   const Parameters median = median_of(all);
   std::vector<double> differences;
+  differences.reserve(all.size());
   for (const Parameters& p : all) differences.push_back(largest_difference(median, p));
   const auto farthest = std::max_element(differences.begin(), differences.end());
   const auto nearest = std::min_element(differences.begin(), differences.end());
