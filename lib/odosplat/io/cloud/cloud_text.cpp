@@ -65,12 +65,11 @@ class TextSource : public CloudSource {
   }
 
   Eigen::Vector3f color() const {
-    const auto value = triple<float>(*layout_.color);
+    auto value = triple<float>(*layout_.color);
     // Without column names, values above 255 need not be colours.
     const float most = layout_.has_names ? 65535.0F : 255.0F;
     if (!(value.minCoeff() >= 0.0F && value.maxCoeff() <= most)) {
-      lines_.fail(std::string("its colour is negative or not finite of ") + (layout_.has_names ? "0..65535, " : "") +
-                  "0..255 or 0..1");
+      lines_.fail(std::string("its colour is not in ") + (layout_.has_names ? "0..65535, " : "") + "0..255 or 0..1");
     }
     return value;
   }

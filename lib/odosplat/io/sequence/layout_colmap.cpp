@@ -29,7 +29,7 @@ struct ModelFiles {
 ModelFiles find_model(const std::string& path) {
   for (const char* below : {"", "sparse", "sparse/0"}) {
     for (const char* ending : {".bin", ".txt"}) {
-      const ModelFiles files{*below == '\0' ? path : join(path, below), ending};
+      ModelFiles files{*below == '\0' ? path : join(path, below), ending};
       if (file_exists(files.file("cameras")) && file_exists(files.file("images"))) return files;
     }
   }
@@ -39,7 +39,7 @@ ModelFiles find_model(const std::string& path) {
 std::string find_image_folder(const std::string& path, const std::string& first_image) {
   std::string tried;
   for (const char* place : {"images", ".", "../images", "../../images"}) {
-    const std::string folder = (fs::path(path) / place).lexically_normal().string();
+    std::string folder = (fs::path(path) / place).lexically_normal().string();
     if (file_exists(listed_file(folder, first_image))) return folder;
     tried += std::string(tried.empty() ? "" : ", ") + place;
   }

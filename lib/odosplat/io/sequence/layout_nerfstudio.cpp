@@ -27,10 +27,10 @@ std::string transforms_of(const std::string& path) {
 
 // The image that a frame names. Synthetic data sets omit the extension.
 std::string image_file(const std::string& folder, const std::string& written) {
-  const std::string file = fs::path(listed_file(folder, written)).lexically_normal().string();
+  std::string file = fs::path(listed_file(folder, written)).lexically_normal().string();
   if (is_image_name(file) || file_exists(file)) return file;
   for (const char* ending : endings) {
-    const std::string candidate = fs::path(listed_file(folder, written + ending)).lexically_normal().string();
+    std::string candidate = fs::path(listed_file(folder, written + ending)).lexically_normal().string();
     if (file_exists(candidate)) return candidate;
   }
   return file + endings[0];
@@ -38,7 +38,7 @@ std::string image_file(const std::string& folder, const std::string& written) {
 
 // The same for a colour image. Throws InputError if a name without extension matches no file.
 std::string color_file(const std::string& folder, const TransformsFrame& frame) {
-  const std::string file = image_file(folder, frame.color);
+  std::string file = image_file(folder, frame.color);
   if (!file_exists(file) && !is_image_name(frame.color)) {
     throw InputError(file, "is missing, and so is that name with .jpg or .jpeg");
   }

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string listed_path(const std::string& file) {
-  const std::string path = fs::absolute(file).lexically_normal().string();
+  std::string path = fs::absolute(file).lexically_normal().string();
   if (has_control_characters(path) || trimmed(path) != path) {
     throw InputError(file, "its name cannot be written into a list");
   }
