@@ -11,6 +11,7 @@
 
 #include "apps/benchmark/foreign_text.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/yaml_document.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
 namespace odosplat::apps {
@@ -99,9 +100,9 @@ void expect_unique(const Table& table, const std::vector<Named>& before, const s
 Suite parse(const std::string& file, const std::string& text) {
   YAML::Node root;
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) throw InputError(file, "holds several YAML documents (`---`), must hold one");
-    if (!documents.empty()) root.reset(documents.front());
+    const std::optional<YAML::Node> document = single_yaml_document(text);
+    if (!document) throw InputError(file, "holds several YAML documents (`---`), must hold one");
+    root.reset(*document);
   } catch (const YAML::Exception& e) {
     throw InputError(file + ":" + std::to_string(e.mark.line + 1), e.msg);
   }

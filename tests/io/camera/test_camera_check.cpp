@@ -130,8 +130,16 @@ TEST(CameraCheck, EveryLayoutsCameraIsChecked) {
 
 TEST(CameraCheck, OnlyOneDocumentIsTaken) {
   EXPECT_EQ(error_of([] { parse_camera_file("c", sound + "---\nfx: 300\n"); }),
-            "c: content: holds 2 YAML documents (`---`), must hold one");
+            "c: content: holds several YAML documents (`---`), must hold one");
   EXPECT_EQ(parse_camera_file("c", "---\n" + sound + "...\n").camera.fx, 240.0);
+}
+
+// yaml-cpp finds documents without end in such texts.
+TEST(CameraCheck, ATextWithDocumentsWithoutEndIsRefused) {
+  for (const std::string& text : {std::string(", 0,8\xd1w"), sound + "---\n, 0,8\n---\n"}) {
+    EXPECT_EQ(error_of([&] { parse_camera_file("c", text); }),
+              "c: content: holds several YAML documents (`---`), must hold one");
+  }
 }
 
 TEST(CameraCheck, AVignetteThatIsMissingIsNamed) {

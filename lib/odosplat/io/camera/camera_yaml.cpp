@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/yaml_document.hpp"
 
 namespace odosplat {
 namespace {
@@ -25,13 +26,9 @@ CameraYaml::CameraYaml(std::string name, std::string text) : name_(std::move(nam
   if (text.size() > max_camera_file_size) throw InputError(name_, "is too long for a camera file");
   if (text.rfind("%YAML:", 0) == 0) text.erase(0, std::min(text.find('\n'), text.size()));
   try {
-    // Not Load(), which reads the first of several documents and ignores the others without an error.
-    std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1 && documents.back().IsNull()) documents.pop_back();
-    if (documents.size() > 1) {
-      fail("content", "holds " + std::to_string(documents.size()) + " YAML documents (`---`), must hold one");
-    }
-    if (!documents.empty()) root_ = documents.front();
+    const std::optional<YAML::Node> document = single_yaml_document(text);
+    if (!document) fail("content", "holds several YAML documents (`---`), must hold one");
+    root_.reset(*document);
   } catch (const YAML::Exception& e) {
     fail("line " + std::to_string(e.mark.line + 1), shown(e.msg));
   }

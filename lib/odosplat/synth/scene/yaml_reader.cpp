@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "odosplat/core/yaml_document.hpp"
+
 namespace odosplat {
 namespace {
 
@@ -30,9 +32,9 @@ std::string brief(double value) {
 YamlPart::YamlPart(std::string name, const std::string& text) : name_(std::move(name)), place_("content") {
   if (text.size() > max_text) throw InputError(name_, "is too long for a scene");
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) throw InputError(name_, "holds several YAML documents (`---`), must hold one");
-    if (!documents.empty()) node_.reset(documents.front());
+    const std::optional<YAML::Node> document = single_yaml_document(text);
+    if (!document) throw InputError(name_, "holds several YAML documents (`---`), must hold one");
+    node_.reset(*document);
   } catch (const YAML::Exception& e) {
     throw InputError(name_, "line " + std::to_string(e.mark.line + 1), shown(e.msg));
   }
