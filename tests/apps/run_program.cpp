@@ -10,6 +10,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "tests/locations.hpp"
@@ -55,6 +56,16 @@ pid_t start(const std::string& program, const std::vector<std::string>& argument
   return child;
 }
 
+/// Whether a process has a handler for the signal. Right after its start it has none, and SIGINT would end it.
+bool handles(pid_t process, int signal) {
+  std::istringstream status(read_text("/proc/" + std::to_string(process) + "/status"));
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("SigCgt:", 0) != 0) continue;
+    return ((std::stoull(line.substr(7), nullptr, 16) >> static_cast<unsigned>(signal - 1)) & 1U) != 0;
+  }
+  return false;
+}
+
 RunResult run_and_signal(const std::string& program, const std::vector<std::string>& arguments, int signal,
                          const std::function<bool()>& ready) {
   const ScratchFolder scratch;
@@ -63,7 +74,7 @@ RunResult run_and_signal(const std::string& program, const std::vector<std::stri
   const pid_t child = start(program, arguments, out_file, err_file);
   int status = 0;
   while (signal != 0 && waitpid(child, &status, WNOHANG) == 0) {
-    if (ready()) {
+    if ((signal != SIGINT || handles(child, signal)) && ready()) {
       kill(child, signal);
       signal = 0;
     } else {

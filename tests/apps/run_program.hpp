@@ -22,7 +22,8 @@ RunResult run_program(const std::string& program, const std::vector<std::string>
 /// The same with the odosplat program of this build.
 RunResult run_odosplat(const std::vector<std::string>& arguments);
 
-/// The same, but sends the signal when `ready` returns true, unless the program has ended before. `ready` is called
+/// The same, but sends the signal when `ready` returns true, unless the program has ended before; SIGINT only
+/// once the program handles it. `ready` is called
 /// every few milliseconds.
 RunResult run_odosplat_and_signal(const std::vector<std::string>& arguments, int signal,
                                   const std::function<bool()>& ready);
