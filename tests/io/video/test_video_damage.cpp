@@ -69,9 +69,10 @@ TEST(VideoDamage, AnImageThatIsMissingIsToldAndThatTheStampsShift) {
   avi.replace(chunk(avi, 4).first - 8, 4, "JUNK");
   const Said said = read(temp.put("junk.avi", avi));
   EXPECT_EQ(said.size, frames - 1);
-  EXPECT_THAT(said.warnings, AllOf(HasSubstr("junk.avi: is damaged or cut off: 11 images are read, 1 that the file declares "
-                                             "are missing"),
-                                   HasSubstr("those behind a missing one are too early")));
+  EXPECT_THAT(said.warnings,
+              AllOf(HasSubstr("junk.avi: is damaged or cut off: 11 images are read, 1 that the file declares "
+                              "are missing"),
+                    HasSubstr("those behind a missing one are too early")));
   // Without the index at the file's end, the number is in its header.
   const Said bare = read(temp.put("bare.avi", avi.substr(0, avi.rfind("idx1"))));
   EXPECT_EQ(bare.size, frames - 1);

@@ -63,7 +63,8 @@ TEST(JudgeMap, NamesFaultAndLikelyCause) {
   const MapQuality inverted =
       judge_map(low, {}, 0.9, GeometryDoubt{.hypothesis = {.inverted = true}, .as_given = 0.9, .instead = 0.1});
   EXPECT_THAT(inverted.verdict, HasSubstr("likely cause: the poses are inverted"));
-  EXPECT_THAT(judge_map(even_views(10), {}, 0.34, std::nullopt).verdict, HasSubstr("the calibration of another camera"));
+  EXPECT_THAT(judge_map(even_views(10), {}, 0.34, std::nullopt).verdict,
+              HasSubstr("the calibration of another camera"));
   EXPECT_TRUE(judge_map(even_views(10), {}, -1.0, std::nullopt).good);  // negative: unknown
   auto off = even_views(10);
   for (ViewQuality& view : off) view.depth_error_share = 0.1;
