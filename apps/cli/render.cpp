@@ -98,7 +98,7 @@ void run(const Common& common, const RenderFlags& flags) {
   progress.finish();
   if (too_far > 0) {
     char text[160];
-    std::snprintf(text, sizeof(text), "%zu pixels lie beyond the %.2f m that 16 bits at depth_scale %g hold: depth 0",
+    std::snprintf(text, sizeof(text), "%zu pixels lie beyond the %.3g m that 16 bits at depth_scale %g hold: depth 0",
                   too_far, largest_depth(camera.depth_scale), camera.depth_scale);
     log_warning(flags.out + ": " + text);
   }

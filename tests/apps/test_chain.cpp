@@ -239,7 +239,7 @@ TEST_F(Chain, RenderSaysWhatSixteenBitsCannotHold) {
   write_text(camera, "width: 160\nheight: 120\nfx: 130\nfy: 130\ncx: 79.5\ncy: 59.5\ndepth_scale: 200000\n");
   const RunResult run = must_run({"render", "--map", map_, "--poses", sequence_ + "/groundtruth.txt", "--camera",
                                   camera, "--out", scratch_ / "fine", "--what", "depth"});
-  EXPECT_THAT(run.err, HasSubstr("pixels lie beyond the 0.33 m that 16 bits at depth_scale 200000 hold: depth 0"));
+  EXPECT_THAT(run.err, HasSubstr("pixels lie beyond the 0.328 m that 16 bits at depth_scale 200000 hold: depth 0"));
 }
 
 TEST_F(Chain, RendersAndDraws) {

@@ -16,7 +16,7 @@ namespace {
 // Largest relative step of depth between neighbouring pixels of one surface: at the focal lengths of depth cameras a
 // wall has such steps only where it is seen at less than 3 degrees.
 constexpr double largest_step = 0.05;
-constexpr double nearest = 1e-3;  // [m] in the colour camera
+constexpr double nearest = 0.05;  // [m] in the colour camera
 // [px^2] Rounding of an edge's two sides must not leave out a pixel that lies on it.
 constexpr double on_edge = -1e-9;
 

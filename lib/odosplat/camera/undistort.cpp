@@ -66,6 +66,14 @@ ColorImage Undistorter::color(const ColorImage& distorted) const {
   return image;
 }
 
+void Undistorter::mask_unseen(DepthImage& depth) const {
+  for (int y = 0; y < source_.rows; ++y) {
+    for (int x = 0; x < source_.cols; ++x) {
+      if (source_(y, x)[0] < 0.0F) depth(y, x) = 0.0F;
+    }
+  }
+}
+
 DepthImage Undistorter::depth(const DepthImage& distorted) const {
   if (is_identity()) return distorted;
   DepthImage image(distorted.size(), 0.0F);

@@ -31,6 +31,8 @@ class Undistorter {
   /// Nearest pixel: interpolating across a depth discontinuity would make depths where there is no surface. z is
   /// unchanged.
   DepthImage depth(const DepthImage& distorted) const;
+  /// Takes the depth from pixels that the distorted image does not show, of an image that is undistorted already.
+  void mask_unseen(DepthImage& depth) const;
 
  private:
   Camera camera_;

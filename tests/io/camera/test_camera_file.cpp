@@ -118,6 +118,7 @@ TEST(CameraFile, ADepthCameraThatIsWrongIsRefused) {
   EXPECT_EQ(fault("0, 0, 0, 1]", "0, 0, 0, 3]"),
             "c.yaml: depth_camera.T_color_depth: the quaternion has length 3, must be near 1 (0.5..2)");
   EXPECT_EQ(fault("-0.025", "-25"), "c.yaml: depth_camera.T_color_depth: its translation must be at most 10 m, is 25");
+  EXPECT_EQ(fault("width: 24", "width: 1"), "c.yaml: depth_camera.width: must be in 2..32768, is 1");
   EXPECT_EQ(fault("width: 24", "width: 24", "fy: -20"), "c.yaml: depth_camera: does not go with a negative fy");
   EXPECT_EQ(error_of([&] { parse_camera_file("c.yaml", with("fx: 20") + "\ndepth_camera: 3\n"); }),
             "c.yaml: depth_camera: is not a list of `key: value` lines");

@@ -89,6 +89,29 @@ TEST(CameraOfOthers, RefusesWhatIsNotRead) {
   EXPECT_EQ(fault(ros_calibration, "image_width: 640\n", ""), "c.yaml: image_width: is missing");
 }
 
+TEST(CameraOfOthers, TakesOurOwnKeysToo) {
+  const CameraFile file = parse_camera_file(
+      "c.yaml",
+      ros_calibration +
+          "depth_scale: 5000\nfps: 15\ndepth_camera:\n  width: 24\n  height: 18\n  fx: 22\n  fy: 23\n  cx: 12\n"
+          "  cy: 9\n  T_color_depth: [-0.025, 0.001, 0.002, 0, 0, 0, 1]\n");
+  EXPECT_EQ(file.camera, expected);
+  EXPECT_EQ(file.depth_scale, 5000.0);
+  EXPECT_TRUE(file.has_depth_scale);
+  EXPECT_EQ(file.fps, 15.0);
+  EXPECT_TRUE(file.depth_camera.has_value());
+}
+
+TEST(CameraOfOthers, DistortionIsNotLost) {
+  std::string listed = ros_calibration;
+  const std::size_t at = listed.find("distortion_coefficients:");
+  listed.replace(at, listed.find("rectification") - at, "distortion_coefficients: [0.1, -0.2, 0, 0]\n");
+  EXPECT_THAT(parse_camera_file("c.yaml", listed).distortion, ElementsAre(0.1, -0.2, 0.0, 0.0));
+  EXPECT_EQ(fault(kalibr, "  distortion_coeffs: [0.1, -0.2, 0.001, -0.002]\n", ""),
+            "c.yaml: cam0.distortion_coeffs: is missing for distortion_model radtan");
+  EXPECT_EQ(fault(kalibr, "radtan", "none"), "c.yaml: cam0.distortion_coeffs: is not 0, and distortion_model is none");
+}
+
 TEST(CameraOfOthers, CoefficientsOfZeroAreNoDistortion) {
   std::string text = ros_message;
   text.replace(text.find("[0.1, -0.2, 0.001, -0.002, 0.03]"), 32, "[0, 0, 0, 0, 0, 0, 0, 0]");

@@ -75,6 +75,24 @@ TEST(SequenceDepthCamera, ATimeOffsetMovesThePoseOfDepth) {
   EXPECT_FALSE(s.T_world_depth(2).has_value());
 }
 
+TEST(SequenceDepthCamera, HasNoDepthWhereTheUndistortedImageShowsNothing) {
+  const TempFolder temp;
+  put_frames(temp, color_lines + "distortion: [0.4, 0, 0, 0]\n" + depth_lines);
+  const Sequence s = Sequence::open(temp.path());
+  const ColorImage color = s.color(1);
+  const DepthImage depth = s.depth(1);
+  int unseen = 0;
+  for (int y = 0; y < depth.rows; ++y) {
+    for (int x = 0; x < depth.cols; ++x) {
+      if (color(y, x) != cv::Vec3f(0.0F, 0.0F, 0.0F)) continue;
+      ++unseen;
+      EXPECT_EQ(depth(y, x), 0.0F) << x << " " << y;
+    }
+  }
+  EXPECT_GT(unseen, 10);
+  EXPECT_GT(cv::countNonZero(depth), 200);
+}
+
 TEST(SequenceDepthCamera, AMovedSequenceKeepsIt) {
   const TempFolder temp;
   put_frames(temp, color_lines + depth_lines);

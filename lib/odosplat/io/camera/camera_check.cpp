@@ -113,6 +113,8 @@ void check_depth_camera(const CameraFile& file) {
   } catch (const InputError& e) {
     throw InputError(std::string("depth_camera.") + e.what());
   }
+  require_range("depth_camera.width", depth.camera.width, 2, 32768);
+  require_range("depth_camera.height", depth.camera.height, 2, 32768);
   const Eigen::Vector3d& t = depth.T_color_depth.translation();
   if (!depth.T_color_depth.is_finite() || !(t.norm() <= camera_limits::most_baseline)) {
     throw InputError("depth_camera.T_color_depth", "its translation must be at most " +

@@ -66,22 +66,21 @@ std::string quoted(const std::string& text) {
 
 CameraFile parse_camera_file(const std::string& name, const std::string& text) {
   const CameraYaml reader(name, text);
-  if (std::optional<CameraFile> other = read_camera_of_others(reader)) {
-    check_camera(name, *other);
-    return *other;
-  }
-  CameraFile file;
-  file.camera = read_camera(reader);
-  if (file.camera.fy < 0.0) {
-    file.fy_sign = -1;
-    file.camera.fy = -file.camera.fy;
+  const std::optional<CameraFile> other = read_camera_of_others(reader);
+  CameraFile file = other.value_or(CameraFile());
+  if (!other) {
+    file.camera = read_camera(reader);
+    if (file.camera.fy < 0.0) {
+      file.fy_sign = -1;
+      file.camera.fy = -file.camera.fy;
+    }
   }
   if (reader.has("depth_scale")) {
     file.depth_scale = reader.number("depth_scale");
     file.has_depth_scale = true;
     if (file.depth_scale <= 0.0) reader.fail("depth_scale", "must be positive");
   }
-  if (reader.has("distortion")) {
+  if (!other && reader.has("distortion")) {
     file.distortion = reader.numbers("distortion");
     const std::size_t n = file.distortion.size();
     if (n != 0 && n != 4 && n != 5) reader.fail("distortion", "must hold 4 or 5 numbers, holds " + std::to_string(n));
@@ -96,8 +95,10 @@ CameraFile parse_camera_file(const std::string& name, const std::string& text) {
   }
   if (reader.has("vignette")) file.vignette = reader.text("vignette");
   if (reader.has("depth_camera")) file.depth_camera = read_depth_camera(reader.below("depth_camera"));
-  reader.refuse_unknown({"width", "height", "fx", "fy", "cx", "cy", "depth_scale", "distortion", "fps", "gamma",
-                         "vignette", "depth_camera"});
+  if (!other) {
+    reader.refuse_unknown({"width", "height", "fx", "fy", "cx", "cy", "depth_scale", "distortion", "fps", "gamma",
+                           "vignette", "depth_camera"});
+  }
   check_camera(name, file);
   return file;
 }

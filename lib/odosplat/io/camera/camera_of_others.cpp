@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <set>
 #include <string>
 #include <vector>
@@ -51,15 +52,29 @@ void set_matrix(const CameraYaml& yaml, const char* key, Camera& camera) {
   camera.cy = k[5];
 }
 
+/// The coefficients of a key, as a list or in a matrix's `data`. Where the file names a model they must be there, and
+/// with model none they must be 0.
+void set_distortion(const CameraYaml& yaml, std::initializer_list<const char*> keys, CameraFile& file) {
+  const std::string model = yaml.has("distortion_model") ? yaml.text("distortion_model") : "";
+  const char* found = nullptr;
+  for (const char* key : keys) {
+    if (found == nullptr && yaml.has(key)) found = key;
+  }
+  if (found == nullptr) {
+    if (!model.empty() && model != "none") yaml.fail(*keys.begin(), "is missing for distortion_model " + model);
+    return;
+  }
+  file.distortion = yaml.is_map(found) ? distortion_of(yaml.below(found), "data") : distortion_of(yaml, found);
+  if (model == "none" && !file.distortion.empty()) yaml.fail(found, "is not 0, and distortion_model is none");
+}
+
 CameraFile read_calibration_form(const CameraYaml& yaml) {
   require_model(yaml, "distortion_model", matrix_models);
   CameraFile file;
   file.camera.width = yaml.integer("image_width");
   file.camera.height = yaml.integer("image_height");
   set_matrix(yaml.below("camera_matrix"), "data", file.camera);
-  if (yaml.is_map("distortion_coefficients")) {
-    file.distortion = distortion_of(yaml.below("distortion_coefficients"), "data");
-  }
+  set_distortion(yaml, {"distortion_coefficients", "dist_coeffs", "dist_coeff"}, file);
   return file;
 }
 
@@ -73,7 +88,7 @@ CameraFile read_message_form(const CameraYaml& yaml, const char* matrix, const c
   file.camera.width = yaml.integer("width");
   file.camera.height = yaml.integer("height");
   set_matrix(yaml, matrix, file.camera);
-  if (yaml.has(distortion)) file.distortion = distortion_of(yaml, distortion);
+  set_distortion(yaml, {distortion}, file);
   return file;
 }
 
@@ -95,9 +110,7 @@ CameraFile read_list_form(const CameraYaml& yaml) {
   file.camera.fy = k[1];
   file.camera.cx = k[2];
   file.camera.cy = k[3];
-  for (const char* key : {"distortion_coeffs", "distortion_coefficients"}) {
-    if (yaml.has(key)) file.distortion = distortion_of(yaml, key);
-  }
+  set_distortion(yaml, {"distortion_coeffs", "distortion_coefficients"}, file);
   if (yaml.has("rate_hz")) {
     file.fps = yaml.number("rate_hz");
     if (file.fps <= 0.0) yaml.fail("rate_hz", "must be positive");

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/sequence/layout_parts.hpp"
 #include "odosplat/io/sequence/layouts.hpp"
@@ -195,6 +196,10 @@ SequenceIndex index_sevenscenes(const std::string& path, const SequenceOptions& 
     if (!T_world_depth) continue;
     const std::optional<DepthCamera>& depth_camera = index.camera.depth_camera;
     files.poses[number] = depth_camera ? *T_world_depth * depth_camera->T_color_depth.inverse() : *T_world_depth;
+  }
+  if (!index.camera.depth_camera && !files.poses.empty()) {
+    log_warning(index.camera_source + " has no depth_camera: the poses of " + folder +
+                ", which 7-Scenes gives for the depth camera, are taken to be the colour camera's");
   }
   const auto without = std::count_if(files.color.begin(), files.color.end(),
                                      [&](const auto& image) { return files.poses.count(image.first) == 0; });

@@ -6,6 +6,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/camera/camera_check.hpp"
 #include "odosplat/io/text/file_names.hpp"
 #include "odosplat/io/text/text_words.hpp"
 #include "odosplat/io/trajectory/trajectory_file.hpp"
@@ -61,6 +62,7 @@ std::size_t write_moved_sequence(const std::string& folder, const Sequence& sequ
     T = SE3(T.rotation(), moved.scale * T.translation());
   }
   if (!camera.vignette.empty()) camera.vignette = listed_path(camera.vignette);
+  check_camera(join(folder, "camera.yaml"), camera);
   const MadeFolders made = ensure_output_folder(folder);
   write_camera_file(join(folder, "camera.yaml"), camera);
   write_trajectory(join(folder, "groundtruth.txt"), truth);

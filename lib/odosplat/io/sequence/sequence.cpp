@@ -176,11 +176,17 @@ struct Sequence::Data {
   /// Poses at the times at which the depth camera took its images.
   void shift_depth_times() {
     if (!index.camera.depth_camera || index.camera.depth_camera->time_offset == 0.0) return;
+    std::size_t unknown = 0;
     for (FrameFiles& f : index.frames) {
-      if (f.depth.empty()) continue;
+      if (f.depth.empty() || !f.T_world_camera) continue;
       const double stamp = f.depth_time_text.empty() ? f.time : f.depth_time;
       f.T_world_depth = pose_at(index.truth, stamp + index.camera.depth_camera->time_offset);
       f.depth_untimed = !f.T_world_depth;
+      unknown += f.depth_untimed ? 1 : 0;
+    }
+    if (unknown > 0) {
+      log_warning(name + ": " + std::to_string(unknown) +
+                  " depth images have no pose at their time, which time_offset of depth_camera moves");
     }
   }
 
@@ -356,7 +362,9 @@ DepthImage Sequence::depth(std::size_t i) const {
     for (int x = 0; x < raw.cols; ++x) to[x] = from[x] == 65535 ? 0.0F : static_cast<float>(from[x] * metres);
   }
   if (const std::optional<DepthCamera>& other = data_->index.camera.depth_camera; other) {
-    return registered_depth(depth, other->camera, other->T_color_depth, camera());
+    DepthImage registered = registered_depth(depth, other->camera, other->T_color_depth, camera());
+    data_->undistorter.mask_unseen(registered);
+    return registered;
   }
   return data_->undistorter.depth(depth);
 }
