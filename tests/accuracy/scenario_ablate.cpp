@@ -143,9 +143,8 @@ void add_ablate(CLI::App& app, apps::Common& common) {
   CLI::App* command = apps::add_command(
       app, common, "ablate",
       "the odometry's rules switched off, one at a time: medians over seeds of ATE, its spread, lost frames, wrong "
-      "poses that count as in the map, normalised error squared and CPU time; a rule pays if without it more frames "
-      "are "
-      "lost or wrong, or ATE grows by more than the spread");
+      "poses that count as in the map, normalised error squared and CPU time; a rule pays if without it more "
+      "frames are lost or wrong, or ATE grows by more than the spread");
   auto flags = std::make_shared<AblateFlags>();
   std::vector<std::string> rule_names;
   for (const Rule& rule : rules()) rule_names.emplace_back(rule.name);

@@ -173,16 +173,16 @@ struct Sequence::Data {
     photometric = PhotometricCorrection(gamma, vignette);
   }
 
-  /// Poses at the times at which the depth camera took its images.
-  void shift_depth_times() {
-    if (!index.camera.depth_camera || index.camera.depth_camera->time_offset == 0.0) return;
+  /// Sets the pose of every depth image: at its own time, moved by the depth camera's time offset.
+  void set_depth_poses() {
+    const double offset = index.camera.depth_camera ? index.camera.depth_camera->time_offset : 0.0;
     std::size_t unknown = 0;
     for (FrameFiles& f : index.frames) {
-      if (f.depth.empty() || !f.T_world_camera) continue;
+      if (!f.T_world_depth) f.T_world_depth = f.T_world_camera;
+      if (offset == 0.0 || f.depth.empty() || !f.T_world_depth) continue;
       const double stamp = f.depth_time_text.empty() ? f.time : f.depth_time;
-      f.T_world_depth = pose_at(index.truth, stamp + index.camera.depth_camera->time_offset);
-      f.depth_untimed = !f.T_world_depth;
-      unknown += f.depth_untimed ? 1 : 0;
+      f.T_world_depth = f.T_world_camera ? pose_at(index.truth, stamp + offset) : std::nullopt;
+      unknown += f.T_world_depth ? 0 : 1;
     }
     if (unknown > 0) {
       log_warning(name + ": " + std::to_string(unknown) +
@@ -249,7 +249,7 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
     }
     for (StampedPose& pose : index.truth) pose.T_world_camera = reflected(pose.T_world_camera);
   }
-  data->shift_depth_times();
+  data->set_depth_poses();
   data->require_near();
   const double listed_fps = median_fps(index.frames);
   data->fps = index.camera.fps > 0.0 ? index.camera.fps : listed_fps;
@@ -331,10 +331,7 @@ std::string Sequence::time_text(std::size_t i) const {
 }
 
 std::optional<SE3> Sequence::T_world_camera(std::size_t i) const { return data_->frame(i).T_world_camera; }
-std::optional<SE3> Sequence::T_world_depth(std::size_t i) const {
-  const FrameFiles& f = data_->frame(i);
-  return f.T_world_depth || f.depth_untimed ? f.T_world_depth : f.T_world_camera;
-}
+std::optional<SE3> Sequence::T_world_depth(std::size_t i) const { return data_->frame(i).T_world_depth; }
 
 ColorImage Sequence::color(std::size_t i) const {
   const FrameFiles& files = data_->frame(i);

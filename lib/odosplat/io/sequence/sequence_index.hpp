@@ -26,7 +26,6 @@ struct FrameFiles {
   std::optional<SE3> T_world_camera;
   // Pose at the time of the depth image if that has a stamp of its own; none: as T_world_camera.
   std::optional<SE3> T_world_depth;
-  bool depth_untimed = false;   // there is no pose at the time of the depth image, and T_world_camera is of another
   double depth_time = 0.0;      // the stamp of the depth image, if depth_time_text is set
   std::string depth_time_text;  // the same as written in the list; empty: the colour image's stamp applies
 };
