@@ -75,6 +75,18 @@ TEST(SequenceDepthCamera, ATimeOffsetMovesThePoseOfDepth) {
   EXPECT_FALSE(s.T_world_depth(2).has_value());
 }
 
+TEST(SequenceDepthCamera, ATimeOffsetGivesNoPoseToAnImageThatHasNone) {
+  const TempFolder temp;
+  put_frames(temp, color_lines + depth_lines + "  time_offset: 0.025\n");
+  temp.put("groundtruth.txt",
+           "10.000 0 0 0 0 0 0 1\n10.050 0 0 0 0 0 0 1\n10.100 nan 0 0 0 0 0 1\n10.150 1 0 0 0 0 0 1\n");
+  // The stamp of depth has a pose of its own, which is not that of the time at which it was taken.
+  temp.put("depth.txt", "10.105 depth/10.100.png\n");
+  const Sequence s = Sequence::open(temp.path());
+  EXPECT_FALSE(s.T_world_camera(1).has_value());
+  EXPECT_FALSE(s.T_world_depth(1).has_value());
+}
+
 TEST(SequenceDepthCamera, HasNoDepthWhereTheUndistortedImageShowsNothing) {
   const TempFolder temp;
   put_frames(temp, color_lines + "distortion: [0.4, 0, 0, 0]\n" + depth_lines);
