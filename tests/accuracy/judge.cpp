@@ -74,6 +74,7 @@ Consistency consistency(const Run& run) {
   std::vector<double> all;
   std::vector<double> keyframes;
   std::vector<double> between;
+  std::vector<double> beyond;
   for (std::size_t k = 1; k < run.frames.size(); ++k) {
     const PlayedFrame& frame = run.frames[k];
     if (frame.blind || !posed(frame)) continue;
@@ -81,11 +82,13 @@ Consistency consistency(const Run& run) {
         normalised_error_squared(frame.result.T_world_camera, frame.T_world_camera_true, frame.result.covariance);
     all.push_back(nees);
     (frame.result.keyframe ? keyframes : between).push_back(nees);
+    if (!frame.result.in_map) beyond.push_back(nees);
   }
   Consistency result;
   result.all = statistics(all);
   result.keyframes = statistics(keyframes);
   result.between = statistics(between);
+  result.beyond = statistics(beyond);
   const auto share = [&all](auto&& holds) {
     return static_cast<double>(std::count_if(all.begin(), all.end(), holds)) /
            static_cast<double>(std::max<std::size_t>(1, all.size()));
@@ -110,6 +113,14 @@ int frames_until_recovered(const Run& run, std::size_t from, std::size_t end, co
     k = j;
   }
   return -1;
+}
+
+int wrong_in_map(const Run& run, const RecoveryBars& bars) {
+  return static_cast<int>(std::count_if(run.frames.begin(), run.frames.end(), [&](const PlayedFrame& frame) {
+    if (frame.result.status == TrackStatus::lost || !frame.result.in_map) return false;
+    const PoseError error = pose_error(frame);
+    return frame.blind || error.meters > bars.wrong_m || error.degrees > bars.wrong_deg;
+  }));
 }
 
 int wrong_poses(const Run& run, std::size_t begin, std::size_t end, const RecoveryBars& bars) {

@@ -42,6 +42,7 @@ struct Consistency {
   Statistics all;
   Statistics keyframes;
   Statistics between;       // frames that are not keyframes
+  Statistics beyond;        // poses that are not in the map
   double above_99 = 0.0;    // share above 16.8; 0.01 expected
   double below_median = 0;  // share below 5.35; 0.5 expected
 };
@@ -58,6 +59,8 @@ struct RecoveryBars {
 
 /// Number of frames from step `from` to the first step before `end` that is recovered as defined above; -1: none.
 int frames_until_recovered(const Run& run, std::size_t from, std::size_t end, const RecoveryBars& bars);
+/// Number of poses reported as in the map that are wrong, or of blind steps, which have no correct pose.
+int wrong_in_map(const Run& run, const RecoveryBars& bars);
 /// Number of wrong poses among steps begin to end - 1.
 int wrong_poses(const Run& run, std::size_t begin, std::size_t end, const RecoveryBars& bars);
 

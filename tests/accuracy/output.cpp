@@ -73,11 +73,11 @@ void Output::trace(const World& world, const std::string& run_name, const Run& r
         posed ? normalised_error_squared(r.T_world_camera, frame.T_world_camera_true, r.covariance) : -1;
     char line[256];
     std::snprintf(line, sizeof(line),
-                  "%s,%.6f,%zu,%d,%s,%d,%d,%.3f,%.4f,%.4f,%.4f,%.3f,%.4f,%.3f,%.2f,%.4f,%d,%.4f,%.1f\n",
+                  "%s,%.6f,%zu,%d,%s,%d,%d,%.3f,%.4f,%.4f,%.4f,%.3f,%.4f,%.3f,%.2f,%.4f,%d,%.4f,%.3f,%.1f\n",
                   run_name.c_str(), frame.time, world.number(frame.frame), frame.blind ? 1 : 0,
                   to_string(r.status).c_str(), r.keyframe ? 1 : 0, r.anchored ? 1 : 0, 1000.0 * error.meters,
                   error.degrees, r.inlier_share, r.coverage, 255.0 * r.rmse, r.map_share, nees, r.milliseconds,
-                  r.evidence.score, r.evidence.patches, r.evidence.probability, 1000.0 * r.misfit);
+                  r.evidence.score, r.evidence.patches, r.evidence.probability, r.evidence.against, 1000.0 * r.misfit);
     trace_ += line;
   }
 }
@@ -87,7 +87,7 @@ void Output::write() const {
   if (trace_file_.empty()) return;
   write_file_atomically(trace_file_,
                         "run,time,frame,blind,status,keyframe,anchored,error_mm,error_deg,inlier_share,coverage,"
-                        "rmse_grey,map_share,nees,milliseconds,score,patches,confirmed,misfit_mm\n" +
+                        "rmse_grey,map_share,nees,milliseconds,score,patches,confirmed,against,misfit_mm\n" +
                             trace_);
 }
 

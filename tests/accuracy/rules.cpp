@@ -77,6 +77,7 @@ const std::vector<Rule>& rules() {
          o.misfit.focal_prior = 1.0 / never;
          o.misfit.center_prior = 1.0 / never;
          o.misfit.radial_prior = 1.0 / never;
+         o.misfit.readout_prior = 1.0 / never;
        }},
       {"all of the anchor", [](OdometryOptions& o) { o.keyframe.anchor.enabled = false; }},
   };

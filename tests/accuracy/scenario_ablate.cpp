@@ -42,11 +42,7 @@ Figures figures_of(const Run& run) {
   const double nothing = std::numeric_limits<double>::infinity();
   figures.ate_mm = judged.ate_m.count > 0 ? 1000.0 * judged.ate_m.rmse : nothing;
   figures.lost = static_cast<double>(judged.lost);
-  for (const PlayedFrame& frame : run.frames) {
-    if (frame.result.status == TrackStatus::lost || !frame.result.in_map) continue;
-    const PoseError error = pose_error(frame);
-    if (error.meters > bars.wrong_m || error.degrees > bars.wrong_deg) figures.wrong += 1.0;
-  }
+  figures.wrong = wrong_in_map(run, bars);
   figures.nees = consistency(run).all.mean;
   figures.cpu_ms = run.cpu_ms;
   return figures;
@@ -88,6 +84,23 @@ Row row_without(const World& world, const std::string& under, const std::string&
       .flag("pays", pays);
 }
 
+constexpr const char* covered = "covered";
+
+/// All frames; under "covered" the images of a quarter of them are black, 20 frames in a row.
+Script script_of(const World& world, const std::string& under,
+                 const std::function<ImageEdit(std::size_t frame)>& edit) {
+  Script script = in_order(world, 0, world.size(), edit);
+  if (under != covered) return script;
+  constexpr std::size_t period = 80;
+  constexpr std::size_t open = 60;
+  for (std::size_t k = 0; k < script.size(); ++k) {
+    if (k % period < open) continue;
+    script[k].blind = true;
+    script[k].edit = [](const GrayImage& image) { return GrayImage(image.rows, image.cols, 0.0F); };
+  }
+  return script;
+}
+
 /// Runs one condition: for every seed with all rules, then without each of the rules.
 void ablate(const apps::Common& common, const World& world, const AblateFlags& flags, const std::string& under,
             Output& out) {
@@ -117,7 +130,7 @@ void ablate(const apps::Common& common, const World& world, const AblateFlags& f
         return [before, gain](const GrayImage& image) { return with_gain(before ? before(image) : image, gain); };
       };
       const std::string label = under + ", seed " + std::to_string(n + 1) + ", " + rule;
-      const Run run = play(world, opened, job, in_order(world, 0, world.size(), scaled), label, option);
+      const Run run = play(world, opened, job, script_of(world, under, scaled), label, option);
       out.trace(world, label, run);
       return figures_of(run);
     };
@@ -148,7 +161,7 @@ void add_ablate(CLI::App& app, apps::Common& common) {
   auto flags = std::make_shared<AblateFlags>();
   std::vector<std::string> rule_names;
   for (const Rule& rule : rules()) rule_names.emplace_back(rule.name);
-  std::vector<std::string> conditions{"plain"};
+  std::vector<std::string> conditions{"plain", covered};
   for (const auto* names : {&image_disturbances(), &map_disturbances()}) {
     conditions.insert(conditions.end(), names->begin(), names->end());
   }
@@ -156,7 +169,10 @@ void add_ablate(CLI::App& app, apps::Common& common) {
   command->add_option("--rules", flags->rules, "the rules in question, by their names (default: all)")
       ->delimiter(',')
       ->check(CLI::IsMember(rule_names));
-  command->add_option("--under", flags->under, "plain, or disturbances as of `disturb`, one after the other")
+  command
+      ->add_option(
+          "--under", flags->under,
+          "plain; covered: no light for 20 frames of every 80; or disturbances as of `disturb`: one after the other")
       ->delimiter(',')
       ->check(CLI::IsMember(conditions));
   apps::add_number(command, "--seeds", flags->seeds, {.least = 1, .most = 100},

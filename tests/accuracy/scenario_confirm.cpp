@@ -117,10 +117,14 @@ long count(const std::vector<Pair>& pairs, Confirmation verdict) {
 void report_kinds(const World& world, const Pairs& all, Output& out) {
   for (const auto& [kind, pairs] : all) {
     std::vector<double> scores;
+    std::vector<double> against;
     for (const Pair& pair : pairs) {
-      if (pair.evidence.verdict != Confirmation::none) scores.push_back(pair.evidence.score);
+      if (pair.evidence.verdict == Confirmation::none) continue;
+      scores.push_back(pair.evidence.score);
+      against.push_back(pair.evidence.against);
     }
     std::sort(scores.begin(), scores.end());
+    std::sort(against.begin(), against.end());
     const Truth truth = pairs.front().truth;
     out.add(Row()
                 .text("set", world.name())
@@ -135,14 +139,17 @@ void report_kinds(const World& world, const Pairs& all, Output& out) {
                 .count("none", count(pairs, Confirmation::none))
                 .number("score_min", scores.empty() ? 0.0 : scores.front(), 3)
                 .number("score_median", percentile(scores, 50.0), 3)
-                .number("score_max", scores.empty() ? 0.0 : scores.back(), 3));
+                .number("score_max", scores.empty() ? 0.0 : scores.back(), 3)
+                .number("against_min", against.empty() ? 0.0 : against.front(), 3)
+                .number("against_median", percentile(against, 50.0), 3)
+                .number("against_max", against.empty() ? 0.0 : against.back(), 3));
   }
 }
 
 /// Precision and recall for different thresholds of the probability for confirmation. Pairs with nearly right poses are
 /// ignored.
 void report_curve(const World& world, const Pairs& all, Output& out) {
-  for (const double least : {0.01, 0.1, 0.5, 0.9, 0.99, 0.999, 0.99999}) {
+  for (const double least : {0.01, 0.1, 0.5, 0.9, 0.99, 0.999}) {
     long right = 0;
     long right_confirmed = 0;
     long wrong = 0;

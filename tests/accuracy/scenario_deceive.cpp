@@ -176,19 +176,19 @@ struct Harm {
 
 Harm harm_of(const Run& run, const RecoveryBars& bars) {
   Harm harm;
+  harm.wrong = wrong_in_map(run, bars);
   int judged = 0;
   for (const PlayedFrame& frame : run.frames) {
     ++harm.frames;
     if (frame.result.status == TrackStatus::lost) continue;
     ++harm.posed;
     const PoseError error = pose_error(frame);
-    const bool wrong = frame.blind || error.meters > bars.wrong_m || error.degrees > bars.wrong_deg;
     if (!frame.result.in_map) {
+      const bool wrong = frame.blind || error.meters > bars.wrong_m || error.degrees > bars.wrong_deg;
       harm.wrong_beyond += wrong ? 1 : 0;
       continue;
     }
     ++harm.in_map;
-    harm.wrong += wrong ? 1 : 0;
     if (frame.blind) continue;
     harm.worst_m = std::max(harm.worst_m, error.meters);
     harm.mean_nees +=

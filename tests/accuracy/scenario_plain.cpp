@@ -38,6 +38,9 @@ void run_plain(const apps::Common& common, const Job& job) {
               .number("keyframes_median", c.keyframes.median, 2)
               .number("between_mean", c.between.mean, 2)
               .number("between_median", c.between.median, 2)
+              .count("beyond", static_cast<long>(c.beyond.count))
+              .number("beyond_mean", c.beyond.mean, 2)
+              .number("beyond_median", c.beyond.median, 2)
               .number("above_16.8", c.above_99, 3)
               .number("below_5.35", c.below_median, 3));
   out.write();

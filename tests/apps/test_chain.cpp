@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "odosplat/io/camera/camera_file.hpp"
 #include "odosplat/io/image/image_file.hpp"
 #include "odosplat/io/trajectory/trajectory_file.hpp"
 #include "tests/apps/run_program.hpp"
@@ -191,6 +192,31 @@ TEST_F(Chain, LooksUpImagesWhoseTruePosesNobodyKnows) {
     EXPECT_NEAR(row["T_world_camera"][0], truth[k].T_world_camera.translation().x(), 0.02);
     EXPECT_NEAR(row["time"], truth[k].time, 1e-6);
     EXPECT_GT(row["score"], 0.0);
+  }
+}
+
+TEST_F(Chain, LooksUpNothingWithAWrongCamera) {
+  const std::string camera = scratch_ / "camera.yaml";
+  for (const double factor : {1.0, 1.1}) {
+    CameraFile told = read_camera_file(sequence_ + "/camera.yaml");
+    told.camera.fx *= factor;
+    told.camera.fy *= factor;
+    write_camera_file(camera, told);
+    const std::string json = scratch_ / "found.json";
+    const RunResult run = run_odosplat({"relocalise", sequence_, "--map", map_, "--camera", camera, "--views", "12",
+                                        "--skip-every", "none", "--json", json});
+    const auto report = nlohmann::json::parse(read_text(json));
+    if (factor == 1.0) {
+      EXPECT_EQ(report["found"], 12) << run.out;
+      EXPECT_EQ(report["camera"], "");
+      continue;
+    }
+    EXPECT_EQ(report["found"], 0) << run.out;
+    EXPECT_THAT(report["rows"].dump(), HasSubstr("the images look as if the focal length were"));
+    EXPECT_THAT(
+        report["camera"],
+        testing::MatchesRegex("the images look as if the focal length were .* shorter than in the camera file"));
+    EXPECT_THAT(run.err, HasSubstr("shorter than in the camera file; poses"));
   }
 }
 

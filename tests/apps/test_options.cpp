@@ -122,7 +122,7 @@ TEST(Options, NamesAreBoundToTheirFields) {
       {"odometry.prefetch", &o.odometry.prefetch_images},
       {"relocaliser.candidates", &o.relocaliser.candidates},
       {"relocaliser.finalists", &o.relocaliser.finalists},
-      {"relocaliser.score", &o.relocaliser.verifier.min_score},
+      {"relocaliser.score", &o.relocaliser.min_score},
       {"relocaliser.sigma", &o.relocaliser.max_position_sigma},
       {"train.ssim_weight", &o.train.loss.ssim_weight},
       {"train.depth_cut", &o.train.depth.cut},

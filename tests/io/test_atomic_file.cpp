@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "odosplat/core/error.hpp"
 #include "tests/io/temp_folder.hpp"
 
 namespace odosplat {
@@ -167,6 +168,19 @@ TEST(AtomicFile, RefusesWhatIsNoRegularFile) {
   }
   EXPECT_TRUE(std::filesystem::is_fifo(temp / "pipe"));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, RefusesStandardOutput) {
+  if (!std::filesystem::is_symlink("/dev/stdout")) GTEST_SKIP() << "no /dev/stdout";
+  for (const std::string path : {"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
+    try {
+      write_file_atomically(path, "text");
+      FAIL() << path;
+    } catch (const InputError& e) {
+      EXPECT_THAT(e.what(), testing::HasSubstr("outputs are files, not standard output")) << path;
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists("-"));
 }
 
 TEST(AtomicFile, TemporaryNamesAreNotPredictable) {

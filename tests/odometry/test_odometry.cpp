@@ -268,6 +268,7 @@ TEST_F(OdometryTest, BlackFramesAreLostAndTheRunGoesOn) {
     }
   }
   EXPECT_EQ(run.live[55].status, TrackStatus::relocalised);
+  EXPECT_TRUE(run.live[55].keyframe) << "the map must confirm what an old keyframe found";
   EXPECT_EQ(run.statistics.lost, 15);
   EXPECT_EQ(run.statistics.relocalisations, 1);
   EXPECT_EQ(run.trajectory.size(), 75U);

@@ -137,8 +137,7 @@ class Run {
     const OdometryStatistics s = odometry_.statistics();
     if (!s.likely_cause.empty() && !warned_of_camera_) {
       warned_of_camera_ = true;
-      log_warning(sequence_.name() + ": " + s.likely_cause +
-                  ", compared with the camera file; poses that this changes by centimetres are refused");
+      log_warning(sequence_.name() + ": " + s.likely_cause + "; poses that this changes by centimetres are refused");
     }
     std::string words = to_string(status) + "  " + std::to_string(s.keyframes) + " keyframes  " +
                         std::to_string(s.lost + static_cast<int>(record_.unreadable())) + " lost";

@@ -15,7 +15,8 @@ namespace {
 // No kernel depends on denormals or signed zeros; mad-enable lets a*b+c become one fused instruction. Not
 // -cl-fast-relaxed-math: it optimises away the constant that exp2 adds and subtracts to round, which makes alpha wrong
 // by up to 40 % without any error.
-constexpr const char* common_options = "-cl-mad-enable -cl-denorms-are-zero -cl-no-signed-zeros";
+// -w: PoCL prints the number of warnings to standard error.
+constexpr const char* common_options = "-w -cl-mad-enable -cl-denorms-are-zero -cl-no-signed-zeros";
 
 std::string joined_text(const std::vector<std::string>& files) {
   std::string text(kernels::source("constants.h"));

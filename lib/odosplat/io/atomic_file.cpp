@@ -57,12 +57,19 @@ std::string parent_of(const std::string& path) {
   return parent.empty() ? "." : parent;
 }
 
+constexpr const char* no_stream = "cannot be written: outputs are files, not standard output or another open file";
+
 /// The file that writing to the path replaces. Links at its end are resolved here, because rename() would replace the
 /// link itself. Links of other users (except root) are refused, because they could redirect the output.
 std::string resolved(const std::string& path) {
   constexpr int most_links = 40;
+  if (path == "-") throw InputError(path, no_stream);
   fs::path at(path);
   for (int i = 0; i < most_links; ++i) {
+    // The link of an open file names what is behind it, which would be replaced under those who have it open.
+    const std::string folder = at.lexically_normal().parent_path().string();
+    const bool of_open_files = folder == "/dev/fd" || (folder.starts_with("/proc/") && folder.ends_with("/fd"));
+    if (of_open_files) throw InputError(path, no_stream);
     struct stat status {};
     if (::lstat(at.c_str(), &status) != 0 || !S_ISLNK(status.st_mode)) return at.string();
     if (status.st_uid != geteuid() && status.st_uid != 0) {

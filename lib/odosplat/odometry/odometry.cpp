@@ -159,16 +159,20 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
   result.T_world_camera = tracked.frame.T_world_camera;
   result.covariance = options_.frame_covariance_factor * tracked.covariance +
                       options_.keyframe_covariance_factor * tracked.keyframe_covariance + tracked.misfit.covariance;
-  result.misfit = tracked.misfit.meters;
+  if (tracked.misfit.significant()) result.misfit = tracked.misfit.meters;
   record_.add_frame(request.frame.time, tracked.keyframe, tracked.T_keyframe_camera, tracked.was_lost);
   request.frame = tracked.frame;
   keyframes_->observe(tracked.frame);
-  if (tracked.keyframe_due()) {
-    if (!make_keyframe(request, result)) return;
+  // Old keyframes may find a camera that was lost, but the map, rendered from there, must confirm it.
+  const bool came_back = tracked.was_lost && tracked.verifiable;
+  if (came_back) finish();
+  if (tracked.keyframe_due() || came_back) {
+    request.to_be_confirmed = came_back;
+    if (!make_keyframe(request, result, came_back) && !came_back) return;
     if (keyframe_evidence_.verdict == Confirmation::confirmed) result.evidence = keyframe_evidence_;
-    if (to_be_confirmed_ && result.evidence.verdict != Confirmation::confirmed) {
-      refuse(image, request, result, keyframe_evidence_);
-    }
+    const bool refused = came_back ? !stands(keyframe_evidence_, keyframe_misfit_, true)
+                                   : to_be_confirmed_ && result.evidence.verdict != Confirmation::confirmed;
+    if (refused) refuse(image, request, result, keyframe_evidence_);
   } else if (keyframes_->renders_ahead() && request.view == nullptr) {
     render_ahead(tracked);
   }
@@ -176,7 +180,12 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
 
 bool Odometry::stands(const MapEvidence& evidence, const MisfitEffect& misfit, bool to_be_confirmed) const {
   if (front_.empty() || front_.newest().patches == nullptr) return true;
-  if (misfit.meters > options_.max_misfit_translation || misfit.radians > options_.max_misfit_rotation) return false;
+  // A search for a pose makes up for a wrong camera by a wrong pose: then less suffices to refuse it.
+  constexpr double likely_sigmas = 2.0;
+  const bool misfits = misfit.significant() || (to_be_confirmed && misfit.sigmas >= likely_sigmas);
+  if (misfits && (misfit.meters > options_.max_misfit_translation || misfit.radians > options_.max_misfit_rotation)) {
+    return false;
+  }
   if (evidence.verdict == Confirmation::confirmed) return true;
   return !to_be_confirmed && evidence.verdict != Confirmation::contradicted;
 }
@@ -231,6 +240,8 @@ bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request
   KeyframeRequest afresh = request;
   afresh.frame.T_world_camera = answer.T_world_camera;
   afresh.frame.brightness = {};
+  afresh.frame.velocity.setZero();
+  afresh.to_be_confirmed = false;
   afresh.fresh = true;
   TrackResult made;
   front_.lose();  // the motion that led here is unknown, and the estimates for this frame do not hold
@@ -249,14 +260,14 @@ bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request
 
 void Odometry::finish() { take_over(keyframes_->wait()); }
 
-bool Odometry::make_keyframe(const KeyframeRequest& request, TrackResult& result) {
+bool Odometry::make_keyframe(const KeyframeRequest& request, TrackResult& result, bool wait) {
   // Without a keyframe to track against, the result has to be waited for.
-  const std::optional<FinishedKeyframe> finished = keyframes_->make(request, front_.empty() || request.fresh);
+  const std::optional<FinishedKeyframe> finished = keyframes_->make(request, wait || front_.empty() || request.fresh);
   take_over(finished);
   if (!finished || !finished->outcome.made) return false;
   result.T_world_camera = front_.newest().T_world_camera;
   result.covariance = options_.keyframe_covariance_factor * front_.newest().covariance + keyframe_misfit_.covariance;
-  result.misfit = keyframe_misfit_.meters;
+  result.misfit = keyframe_misfit_.significant() ? keyframe_misfit_.meters : 0.0;
   result.keyframe = true;
   result.anchored = finished->outcome.anchored;
   return true;

@@ -135,7 +135,8 @@ class Odometry {
 
   /// Finds the camera of the next image (the camera's size, grey 0..1, else InputError) taken at `time` [s]. view:
   /// rendered in place of the map if this image becomes a keyframe, for example a depth sensor's image; null: the map.
-  /// With options.background this returns without waiting for the map once there is a keyframe.
+  /// With options.background this returns without waiting for the map once there is a keyframe, except for the first
+  /// image found after a loss.
   TrackResult track(const GrayImage& image, double time, std::shared_ptr<MapView> view = nullptr);
 
   /// With options.background: waits for the keyframe in the making and takes it over. Else does nothing.
@@ -158,8 +159,9 @@ class Odometry {
   /// the pose that tracking gave (T_world_tracked).
   bool relocalise(const GrayImage& image, const KeyframeRequest& request, TrackResult& result,
                   const std::optional<SE3>& T_world_tracked = std::nullopt);
-  /// Whether a pose is accepted, by its comparison with the map. to_be_confirmed: the pose does not continue from one
-  /// that the map has confirmed, so that it needs to be confirmed itself.
+  /// Whether a pose is accepted, by its comparison with the map and by the camera's misfit. to_be_confirmed: the pose
+  /// does not continue from one that the map has confirmed, so that it needs to be confirmed itself, and a misfit that
+  /// is only likely (2 sigma) counts.
   bool stands(const MapEvidence& evidence, const MisfitEffect& misfit, bool to_be_confirmed) const;
   /// Discards a tracked pose because of its comparison with the map, and looks the image up.
   void refuse(const GrayImage& image, const KeyframeRequest& request, TrackResult& result, const MapEvidence& evidence);
@@ -167,8 +169,9 @@ class Odometry {
   /// drift of one keyframe (before any factor) is added to its covariance for every frame since the map last confirmed
   /// one.
   void judge(TrackResult& result);
-  /// Asks for a keyframe and writes it into the result. False: there is none, or not yet.
-  bool make_keyframe(const KeyframeRequest& request, TrackResult& result);
+  /// Asks for a keyframe and writes it into the result. wait: until it is made, though there are others to track
+  /// against. False: there is none, or not yet.
+  bool make_keyframe(const KeyframeRequest& request, TrackResult& result, bool wait = false);
   void take_over(const std::optional<FinishedKeyframe>& finished);
   void render_ahead(const TrackedFrame& tracked);
 

@@ -26,8 +26,22 @@ class CameraMisfitTest : public testing::Test {
     for (int k = 0; k < keyframes; ++k) {
       const SE3 T_world_camera = test::room_path(30 * k);
       const FramePyramid image = build_frame_pyramid(told, room_.gray(camera_, T_world_camera), 0.0);
-      effect_ = misfit.add(patches(T_world_camera, told), image, T_world_camera);
+      effect_ = misfit.effect(misfit.add(patches(T_world_camera, told), image, T_world_camera, Vector6d::Zero()), told);
     }
+  }
+  /// The image of a rolling shutter: `bands` of rows, each taken at the pose that the camera has then.
+  GrayImage rolling(const SE3& T_world_camera, const Vector6d& velocity, double readout) {
+    constexpr int bands = 40;
+    const int rows = camera_.height / bands;
+    GrayImage image(camera_.height, camera_.width);
+    for (int k = 0; k < bands; ++k) {
+      const double seconds = readout * ((k + 0.5) / bands - 0.5);
+      const SE3 T_camera_world = SE3::exp(seconds * velocity) * T_world_camera.inverse();
+      room_.gray(camera_, T_camera_world.inverse())
+          .rowRange(k * rows, (k + 1) * rows)
+          .copyTo(image.rowRange(k * rows, (k + 1) * rows));
+    }
+    return image;
   }
 
   test::BoxRoom room_;
@@ -43,7 +57,7 @@ TEST_F(CameraMisfitTest, SquaresTellAShiftOfThePose) {
     Vector6d twist = Vector6d::Zero();
     twist[axis] = axis < 3 ? 0.002 : 0.001;
     const SE3 T_camera_world = SE3::exp(twist) * T_world_camera.inverse();
-    const MisfitSystem system = view.misfit(image, T_camera_world, {}, 0, 0.3);
+    const MisfitSystem system = view.misfit(image, T_camera_world, Vector6d::Zero(), {}, 0, 0.3);
     ASSERT_GT(system.patches, 100);
     const Vector6d found = system.information.topLeftCorner<6, 6>().ldlt().solve(system.vector.head<6>().eval());
     // One step reduces the error by more than half; it is not exact, as each square has a single motion.
@@ -55,12 +69,16 @@ TEST_F(CameraMisfitTest, SquaresTellAShiftOfTheCamera) {
   const SE3 T_world_camera = test::room_path(20);
   const FramePyramid image = build_frame_pyramid(camera_, room_.gray(camera_, T_world_camera), 0.0);
   const ViewPatches view = patches(T_world_camera, camera_);
+  Vector6d velocity;
+  velocity << 0.8, -0.3, 0.2, 0.2, 0.9, 0.3;
   for (int k = 0; k < CameraCorrection::size; ++k) {
-    Eigen::Vector4d wrong = Eigen::Vector4d::Zero();
+    CameraCorrection::Vector wrong = CameraCorrection::Vector::Zero();
     wrong[k] = k == 3 ? 0.005 : 0.002;
-    const MisfitSystem system = view.misfit(image, T_world_camera.inverse(), CameraCorrection::from(wrong), 0, 0.3);
-    const Eigen::Vector4d found =
-        system.information.bottomRightCorner<4, 4>().ldlt().solve(system.vector.tail<4>().eval());
+    const MisfitSystem system =
+        view.misfit(image, T_world_camera.inverse(), velocity, CameraCorrection::from(wrong), 0, 0.3);
+    constexpr int n = CameraCorrection::size;
+    const CameraCorrection::Vector found =
+        system.information.bottomRightCorner<n, n>().ldlt().solve(system.vector.tail<n>().eval());
     EXPECT_LT((found + wrong).norm(), 0.3 * wrong.norm()) << k;
   }
 }
@@ -69,7 +87,9 @@ TEST_F(CameraMisfitTest, ARightCameraIsLeftAlone) {
   CameraMisfit misfit({});
   watch(misfit, camera_);
   EXPECT_LT(misfit.correction().vector().norm(), 0.003);
-  EXPECT_EQ(effect_.meters, 0.0);
+  EXPECT_LT(effect_.meters, 0.005);
+  EXPECT_EQ(effect_.sigmas, 0.0);
+  EXPECT_EQ(effect_.covariance.norm(), 0.0);
   EXPECT_EQ(misfit.likely_cause(camera_), "");
 }
 
@@ -87,6 +107,16 @@ TEST_F(CameraMisfitTest, AWrongFocalLengthIsNamed) {
   }
 }
 
+TEST_F(CameraMisfitTest, OneImageMakesAFarWrongFocalLengthLikely) {
+  Camera told = camera_;
+  told.fx *= 0.8;
+  told.fy *= 0.8;
+  CameraMisfit misfit({});
+  watch(misfit, told, 1);
+  EXPECT_GT(effect_.sigmas, 2.0);
+  EXPECT_GT(effect_.meters, 0.05);
+}
+
 TEST_F(CameraMisfitTest, AWrongPrincipalPointIsNamed) {
   Camera told = camera_;
   told.cx += 8.0;
@@ -94,6 +124,24 @@ TEST_F(CameraMisfitTest, AWrongPrincipalPointIsNamed) {
   watch(misfit, told);
   EXPECT_NEAR(misfit.correction().center_u * told.fx, -8.0, 1.5);
   EXPECT_THAT(misfit.likely_cause(told), testing::HasSubstr("further left"));
+}
+
+TEST_F(CameraMisfitTest, ARollingShutterIsNamed) {
+  Vector6d velocity;
+  velocity << 0.3, 0.1, 0.1, 0.2, 0.8, 0.1;
+  for (const double readout : {0.02, -0.02}) {
+    CameraMisfit misfit({});
+    for (int k = 0; k < 6; ++k) {
+      const SE3 T_world_camera = test::room_path(30 * k);
+      const FramePyramid image = build_frame_pyramid(camera_, rolling(T_world_camera, velocity, readout), 0.0);
+      effect_ = misfit.effect(misfit.add(patches(T_world_camera, camera_), image, T_world_camera, velocity), camera_);
+    }
+    EXPECT_NEAR(misfit.correction().readout, readout, 0.002);
+    EXPECT_THAT(misfit.likely_cause(camera_),
+                testing::MatchesRegex(readout > 0.0 ? ".* within [12][0-9] ms \\(rolling shutter\\)"
+                                                    : ".* within [12][0-9] ms, the last one first"));
+    EXPECT_GT(effect_.covariance.diagonal().sum(), 0.0);
+  }
 }
 
 TEST_F(CameraMisfitTest, OptionsAreChecked) {

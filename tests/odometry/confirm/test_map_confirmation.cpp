@@ -126,6 +126,36 @@ TEST_F(MapConfirmationTest, WhiteNoiseIsContradicted) {
             Confirmation::contradicted);
 }
 
+TEST_F(MapConfirmationTest, ClearTextureThatTheMapDoesNotShowSpeaksAgainst) {
+  // The left part is the map's to the pixel, as of a place that is in part like another one.
+  test::BoxRoom other;
+  other.detail = 1.7;
+  const SE3 T_world_camera = test::room_path(10);
+  const ViewPatches view = patches(T_world_camera);
+  for (const double share : {0.0, 0.15, 0.6}) {
+    GrayImage image = room_.gray(camera_, T_world_camera);
+    const auto width = static_cast<int>(share * camera_.width);
+    const cv::Rect part(camera_.width - width, 0, width, camera_.height);
+    if (width > 0) other.gray(camera_, T_world_camera)(part).copyTo(image(part));
+    const MapEvidence evidence = view.compare(pyramid(image), T_world_camera);
+    EXPECT_NEAR(evidence.against, 0.7 * share, 0.3 * share + 0.05) << share;
+    EXPECT_GT(confirmation_probability(evidence.score, evidence.patches, 0.0, options_), 0.99) << share;
+    EXPECT_EQ(evidence.verdict, share < 0.5 ? Confirmation::confirmed : Confirmation::undecided) << share;
+  }
+}
+
+TEST_F(MapConfirmationTest, NoiseAndBlurDoNotSpeakAgainst) {
+  const SE3 T_world_camera = test::room_path(10);
+  const ViewPatches view = patches(T_world_camera);
+  GrayImage noisy = room_.gray(camera_, T_world_camera);
+  GrayImage blurred;
+  cv::blur(noisy, blurred, {7, 1});
+  Random random(3);
+  for (float& value : noisy) value += static_cast<float>(0.05 * random.normal());
+  EXPECT_LT(view.compare(pyramid(noisy), T_world_camera).against, 0.1);
+  EXPECT_LT(view.compare(pyramid(blurred), T_world_camera).against, 0.1);
+}
+
 TEST_F(MapConfirmationTest, WhereNothingCanBeComparedNothingIsSaid) {
   const FramePyramid image = pyramid(room_.gray(camera_, test::room_path(0)));
   // A wall of uniform colour, in the image and in the map.
@@ -147,21 +177,23 @@ TEST_F(MapConfirmationTest, WhereNothingCanBeComparedNothingIsSaid) {
 }
 
 TEST_F(MapConfirmationTest, ProbabilityFollowsBayesRule) {
-  EXPECT_EQ(confirmation_probability(0.9, 0, options_), 0.0);
+  EXPECT_EQ(confirmation_probability(0.9, 0, 0.0, options_), 0.0);
   options_.null_common = 0.03;
   options_.null_patch = 0.4;
   options_.prior = 0.5;
   // 100 squares: variance 0.0009 + 0.0016, standard deviation 0.05; the density at two standard deviations is 7.9788 *
   // exp(-2) = 1.0798.
-  EXPECT_NEAR(confirmation_probability(0.1, 100, options_), 1.0 / (1.0 + 1.0798), 1e-4);
-  EXPECT_LT(confirmation_probability(-0.8, 100, options_), 0.2);
+  EXPECT_NEAR(confirmation_probability(0.1, 100, 0.0, options_), 1.0 / (1.0 + 1.0798 + 0.0005), 1e-4);
+  // A place that is alike in part: odds 0.005 * 0.1 * exp(0.3 / 0.1) = 0.01004 to those of the right one.
+  EXPECT_NEAR(confirmation_probability(1.0, 100, 0.3, options_), 1.0 / (1.0 + 0.01004), 1e-4);
+  EXPECT_LT(confirmation_probability(-0.8, 100, 0.0, options_), 0.2);
   double last = 0.0;
   for (double score = 0.0; score <= 1.0; score += 0.05) {
-    const double probability = confirmation_probability(score, 100, options_);
+    const double probability = confirmation_probability(score, 100, 0.0, options_);
     EXPECT_GE(probability, last);
     last = probability;
   }
-  EXPECT_GT(confirmation_probability(0.2, 400, options_), confirmation_probability(0.2, 40, options_));
+  EXPECT_GT(confirmation_probability(0.2, 400, 0.0, options_), confirmation_probability(0.2, 40, 0.0, options_));
 }
 
 TEST_F(MapConfirmationTest, OptionsAreChecked) {

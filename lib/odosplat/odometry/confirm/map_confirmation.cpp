@@ -12,36 +12,29 @@
 namespace odosplat {
 namespace {
 
-using Values = std::array<float, patch_pixels>;
+/// Distance of every pixel of a square from its middle, along u and along v.
+struct Offsets {
+  PatchValues u;
+  PatchValues v;
+  Offsets() {
+    constexpr float middle = 0.5F * (patch_side - 1);
+    for (int k = 0; k < patch_pixels; ++k) {
+      u[k] = static_cast<float>(k % patch_side) - middle;
+      v[k] = static_cast<float>(k / patch_side) - middle;
+    }
+  }
+};
 
 /// The square less its mean and its slope along both sides. Returns its length before it is scaled to 1.
-float remove_plane(Values& values) {
-  constexpr float middle = 0.5F * (patch_side - 1);
+float remove_plane(PatchValues& values) {
+  static const Offsets from_middle;
   // Sum of squared distances from the middle over the square, along one side.
   constexpr float moment = patch_pixels * (patch_pixels - 1) / 12.0F;
-  float mean = 0.0F;
-  float along_u = 0.0F;
-  float along_v = 0.0F;
-  for (int k = 0; k < patch_pixels; ++k) {
-    const float u = static_cast<float>(k % patch_side) - middle;
-    const float v = static_cast<float>(k / patch_side) - middle;
-    const float value = values[static_cast<std::size_t>(k)];
-    mean += value;
-    along_u += u * value;
-    along_v += v * value;
-  }
-  mean /= patch_pixels;
-  along_u /= moment;
-  along_v /= moment;
-  float squares = 0.0F;
-  for (int k = 0; k < patch_pixels; ++k) {
-    const float u = static_cast<float>(k % patch_side) - middle;
-    const float v = static_cast<float>(k / patch_side) - middle;
-    float& value = values[static_cast<std::size_t>(k)];
-    value -= mean + along_u * u + along_v * v;
-    squares += value * value;
-  }
-  return std::sqrt(squares);
+  const float mean = values.mean();
+  const float along_u = (from_middle.u * values).sum() / moment;
+  const float along_v = (from_middle.v * values).sum() / moment;
+  values -= mean + along_u * from_middle.u + along_v * from_middle.v;
+  return std::sqrt(values.square().sum());
 }
 
 float length_of_spread(double spread) { return static_cast<float>(patch_side * spread); }
@@ -54,21 +47,54 @@ constexpr double least_noise = 1e-3;
 /// a ratio of rounding errors.
 constexpr double least_spread = 0.5 / 255;
 
+/// A square of the image: its correlation with the map, and its length before it is scaled to 1.
+struct SeenSquare {
+  double correlation;
+  float length;
+};
+
+/// Share of the squares in which the image shows clearly what the map does not: of those whose texture is far above the
+/// image's noise, those that do not correlate. The noise is what the map leaves unexplained in the squares that it
+/// explains best.
+double share_against(const std::vector<SeenSquare>& squares) {
+  constexpr double explained = 0.2;  // share of the squares
+  constexpr double clear = 4.0;      // times the noise
+  constexpr double unlike = 0.2;     // correlation
+  constexpr int enough = 20;
+  if (squares.empty()) return 0.0;
+  std::vector<double> unexplained;
+  for (const SeenSquare& s : squares) {
+    unexplained.push_back(s.length * std::sqrt(std::max(0.0, 1.0 - s.correlation * s.correlation)));
+  }
+  const auto nth =
+      unexplained.begin() + static_cast<std::ptrdiff_t>(explained * static_cast<double>(unexplained.size()));
+  std::nth_element(unexplained.begin(), nth, unexplained.end());
+  const double least = std::max(clear * *nth, static_cast<double>(length_of_spread(4.0 / 255)));
+  int textured = 0;
+  int against = 0;
+  for (const SeenSquare& s : squares) {
+    if (s.length < least) continue;
+    ++textured;
+    if (s.correlation < unlike) ++against;
+  }
+  return textured < enough ? 0.0 : static_cast<double>(against) / textured;
+}
+
 /// Depth of every pixel of a square; what has none gets the mean of the others. False: too few have.
-bool depths_of(const DepthImage& depth, int left, int top, int step, Values& z) {
+bool depths_of(const DepthImage& depth, int left, int top, int step, PatchValues& z) {
   constexpr int enough = 6 * patch_pixels / 10;
   float sum = 0.0F;
   int known = 0;
   for (int k = 0; k < patch_pixels; ++k) {
     const float value = depth((top + k / patch_side) * step + step / 2, (left + k % patch_side) * step + step / 2);
-    z[static_cast<std::size_t>(k)] = value;
+    z[k] = value;
     if (!(value > 0.0F)) continue;
     sum += value;
     ++known;
   }
   if (known < enough) return false;
-  for (float& value : z) {
-    if (!(value > 0.0F)) value = sum / static_cast<float>(known);
+  for (int k = 0; k < patch_pixels; ++k) {
+    if (!(z[k] > 0.0F)) z[k] = sum / static_cast<float>(known);
   }
   return true;
 }
@@ -82,18 +108,25 @@ void ConfirmationOptions::check() const {
   require(min_share >= 0.0 && min_share <= 1.0, "confirmation.min_share", "in [0, 1]");
   require(null_common > 0.0 && null_patch >= 0.0, "confirmation.null_common and null_patch", "positive");
   require(prior > 0.0 && prior < 1.0, "confirmation.prior", "in (0, 1)");
+  require(part_prior > 0.0 && part_prior < 1.0, "confirmation.part_prior", "in (0, 1)");
+  require(right_against > 0.0, "confirmation.right_against", "positive");
   require(confirmed > 0.0 && confirmed < 1.0, "confirmation.confirmed", "in (0, 1)");
+  // The place alike in part keeps these odds whatever the image shows.
+  require(confirmed * (1.0 + part_prior * right_against) < 1.0, "confirmation.confirmed",
+          "below 1 / (1 + part_prior * right_against)");
   require(contradicted >= 0.0 && contradicted <= confirmed, "confirmation.contradicted", "in [0, confirmed]");
 }
 
-double confirmation_probability(double score, int patches, const ConfirmationOptions& options) {
+double confirmation_probability(double score, int patches, double against, const ConfirmationOptions& options) {
   if (patches == 0) return 0.0;
   const double variance = options.null_common * options.null_common + options.null_patch * options.null_patch / patches;
   // A negative score counts as 0.
   const double s = std::max(0.0, score);
   const double log_null = -0.5 * s * s / variance - 0.5 * std::log(2.0 * std::numbers::pi * variance);
-  const double log_odds = std::log(options.prior / (1.0 - options.prior)) - log_null;
-  return 1.0 / (1.0 + std::exp(-log_odds));
+  // Odds of each of the two wrong hypotheses to the right one.
+  const double elsewhere = (1.0 - options.prior) / options.prior * std::exp(log_null);
+  const double alike_in_part = options.part_prior * options.right_against * std::exp(against / options.right_against);
+  return 1.0 / (1.0 + elsewhere + alike_in_part);
 }
 
 ViewPatches::ViewPatches(const Camera& camera, const RenderedView& view, double smoothing,
@@ -117,18 +150,16 @@ ViewPatches::ViewPatches(const Camera& camera, const RenderedView& view, double 
         Patch patch;
         if (!depths_of(view.images.depth, left, top, 1 << number, patch.z)) continue;
         for (int k = 0; k < patch_pixels; ++k) {
-          const auto i = static_cast<std::size_t>(k);
           const int u = left + k % patch_side;
           const int v = top + k / patch_side;
           const Eigen::Vector3d ray = small.ray(u, v);
-          patch.x[i] = static_cast<float>(ray.x()) * patch.z[i];
-          patch.y[i] = static_cast<float>(ray.y()) * patch.z[i];
-          patch.shape[i] = gray(v, u);
+          patch.x[k] = static_cast<float>(ray.x()) * patch.z[k];
+          patch.y[k] = static_cast<float>(ray.y()) * patch.z[k];
+          patch.shape[k] = gray(v, u);
         }
         const float length = remove_plane(patch.shape);
         patch.textured = length >= length_of_spread(options.min_texture);
-        const float scale = 1.0F / std::max(length, length_of_spread(least_spread));
-        for (float& value : patch.shape) value *= scale;
+        patch.shape /= std::max(length, length_of_spread(least_spread));
         level.patches.push_back(patch);
       }
     }
@@ -146,37 +177,39 @@ MapEvidence ViewPatches::compare(const Level& level, const FramePyramid& image, 
   const auto fy = static_cast<float>(camera.fy);
   const auto cx = static_cast<float>(camera.cx);
   const auto cy = static_cast<float>(camera.cy);
-  const auto right = static_cast<float>(gray.cols - 1);
-  const auto bottom = static_cast<float>(gray.rows - 1);
+  // Pixels at the edge of a view from the same pose are projected to the edge but for rounding.
+  constexpr float rounding = 0.01F;
+  const float right = static_cast<float>(gray.cols - 1) + rounding;
+  const float bottom = static_cast<float>(gray.rows - 1) + rounding;
   MapEvidence evidence;
   int in_view = 0;
   double sum = 0.0;
-  Values values;
+  std::vector<SeenSquare> squares;
+  squares.reserve(level.patches.size());
   for (const Patch& patch : level.patches) {
-    bool inside = true;
-    for (std::size_t i = 0; i < patch_pixels && inside; ++i) {
-      const Eigen::Vector3f p = R * Eigen::Vector3f(patch.x[i], patch.y[i], patch.z[i]) + t;
-      const float u = fx * p.x() / p.z() + cx;
-      const float v = fy * p.y() / p.z() + cy;
-      inside = p.z() > 0.01F && u >= 0.0F && v >= 0.0F && u <= right && v <= bottom;
-      if (inside) values[i] = bilinear(gray, u, v);
-    }
-    if (!inside) continue;
+    const PatchValues z = R(2, 0) * patch.x + R(2, 1) * patch.y + R(2, 2) * patch.z + t.z();
+    if (!(z.minCoeff() > 0.01F)) continue;
+    const PatchValues u = fx * (R(0, 0) * patch.x + R(0, 1) * patch.y + R(0, 2) * patch.z + t.x()) / z + cx;
+    const PatchValues v = fy * (R(1, 0) * patch.x + R(1, 1) * patch.y + R(1, 2) * patch.z + t.y()) / z + cy;
+    if (!(u.minCoeff() >= -rounding && v.minCoeff() >= -rounding && u.maxCoeff() <= right && v.maxCoeff() <= bottom))
+      continue;
     ++in_view;
+    PatchValues values;
+    for (int k = 0; k < patch_pixels; ++k) values[k] = bilinear(gray, u[k], v[k]);
     const float length = remove_plane(values);
     if (!patch.textured && length < length_of_spread(options_.min_texture)) continue;
-    double product = 0.0;
-    for (std::size_t i = 0; i < patch_pixels; ++i) product += static_cast<double>(patch.shape[i] * values[i]);
-    sum += product / std::max(length, length_of_spread(least_spread));
-    ++evidence.patches;
+    const auto product = static_cast<double>((patch.shape * values).sum());
+    squares.push_back({product / std::max(length, length_of_spread(least_spread)), length});
+    sum += squares.back().correlation;
   }
   evidence.share = static_cast<double>(in_view) / std::max(1, level.cells);
+  evidence.patches = static_cast<int>(squares.size());
   if (evidence.patches > 0) evidence.score = sum / evidence.patches;
-  evidence.probability = confirmation_probability(evidence.score, evidence.patches, options_);
+  evidence.against = share_against(squares);
   return evidence;
 }
 
-MisfitSystem ViewPatches::misfit(const FramePyramid& image, const SE3& T_camera_world,
+MisfitSystem ViewPatches::misfit(const FramePyramid& image, const SE3& T_camera_world, const Vector6d& velocity,
                                  const CameraCorrection& correction, int coarse, double min_patch) const {
   MisfitSystem system;
   if (levels_.empty()) return system;
@@ -184,19 +217,28 @@ MisfitSystem ViewPatches::misfit(const FramePyramid& image, const SE3& T_camera_
   const GrayImage& gray = image.gray[static_cast<std::size_t>(level.number)];
   const Camera& camera = image.cameras[static_cast<std::size_t>(level.number)];
   const SE3 T_camera_view = T_camera_world * T_world_view_;
-  const Eigen::Matrix3d R = T_camera_view.rotation().toRotationMatrix();
-  const Eigen::Vector3d t = T_camera_view.translation();
-  Values values;
-  Values along_u;
-  Values along_v;
+  const auto to_full_size = static_cast<double>(1 << level.number);
+  constexpr int middle = patch_pixels / 2 + patch_side / 2;
+  PatchValues values;
+  PatchValues along_u;
+  PatchValues along_v;
   double squares = 0.0;
   double weights = 0.0;
+  double flow = 0.0;
   for (const Patch& patch : level.patches) {
     if (!patch.textured) continue;
     bool inside = true;
-    Eigen::Matrix<double, 2, 10> jacobian = Eigen::Matrix<double, 2, 10>::Zero();
-    for (std::size_t i = 0; i < patch_pixels && inside; ++i) {
-      const Eigen::Vector3d p = R * Eigen::Vector3d(patch.x[i], patch.y[i], patch.z[i]) + t;
+    Eigen::Matrix<double, 2, MisfitSystem::size> jacobian;
+    const Eigen::Vector3d center = T_camera_view * patch.point(middle);
+    if (!(center.z() > 0.01)) continue;
+    // When the square's rows were taken, as a share of the readout time.
+    const double row = (camera.fy * center.y() / center.z() + camera.cy + 0.5) / camera.height;
+    const double rows = std::clamp(row, 0.0, 1.0) - 0.5;
+    const SE3 T_rows_view = SE3::exp(rows * correction.readout * velocity) * T_camera_view;
+    const Eigen::Matrix3d R = T_rows_view.rotation().toRotationMatrix();
+    const Eigen::Vector3d t = T_rows_view.translation();
+    for (int i = 0; i < patch_pixels && inside; ++i) {
+      const Eigen::Vector3d p = R * patch.point(i) + t;
       const double x = p.x() / p.z();
       const double y = p.y() / p.z();
       const double r2 = x * x + y * y;
@@ -210,34 +252,30 @@ MisfitSystem ViewPatches::misfit(const FramePyramid& image, const SE3& T_camera_
       values[i] = bilinear(gray, uf, vf);
       along_u[i] = bilinear(gray, uf + 0.5F, vf) - bilinear(gray, uf - 0.5F, vf);
       along_v[i] = bilinear(gray, uf, vf + 0.5F) - bilinear(gray, uf, vf - 0.5F);
-      if (i != patch_pixels / 2 + patch_side / 2) continue;
+      if (i != middle) continue;
       jacobian.leftCols<6>() = stretch * projection_jacobian(camera, p);
       jacobian.col(6) = Eigen::Vector2d(camera.fx * x, camera.fy * y) * (1.0 + correction.radial * r2);
       jacobian.col(7) = Eigen::Vector2d(camera.fx, 0.0);
       jacobian.col(8) = Eigen::Vector2d(0.0, camera.fy);
       jacobian.col(9) = Eigen::Vector2d(camera.fx * x, camera.fy * y) * (1.0 + correction.focal) * r2;
+      jacobian.col(10) = rows * jacobian.leftCols<6>() * velocity;
     }
     if (!inside) continue;
     const float length = remove_plane(values);
     if (length < length_of_spread(options_.min_texture)) continue;
     remove_plane(along_u);
     remove_plane(along_v);
-    double correlation = 0.0;
-    double u_along = 0.0;
-    double v_along = 0.0;
-    for (std::size_t i = 0; i < patch_pixels; ++i) {
-      values[i] /= length;
-      along_u[i] /= length;
-      along_v[i] /= length;
-      correlation += static_cast<double>(values[i] * patch.shape[i]);
-      u_along += static_cast<double>(values[i] * along_u[i]);
-      v_along += static_cast<double>(values[i] * along_v[i]);
-    }
+    values /= length;
+    along_u /= length;
+    along_v /= length;
+    const auto correlation = static_cast<double>((values * patch.shape).sum());
+    const auto u_along = static_cast<double>((values * along_u).sum());
+    const auto v_along = static_cast<double>((values * along_v).sum());
     if (correlation < min_patch) continue;
     // Derivatives of the normalised values by the shift: the image's, less their component along the values themselves.
     Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
     Eigen::Vector2d b = Eigen::Vector2d::Zero();
-    for (std::size_t i = 0; i < patch_pixels; ++i) {
+    for (int i = 0; i < patch_pixels; ++i) {
       const double value = values[i];
       const Eigen::Vector2d g(along_u[i] - u_along * value, along_v[i] - v_along * value);
       A += g * g.transpose();
@@ -248,28 +286,34 @@ MisfitSystem ViewPatches::misfit(const FramePyramid& image, const SE3& T_camera_
     system.vector += weight * jacobian.transpose() * b;
     squares += weight * 2.0 * (1.0 - correlation);
     weights += weight * (patch_pixels - 3);
+    flow += (jacobian.leftCols<6>() * velocity).squaredNorm();
     ++system.patches;
   }
   system.noise = weights > 0.0 ? std::max(least_noise, squares / weights) : 1.0;
+  if (system.patches > 0) system.flow = to_full_size * std::sqrt(flow / system.patches);
   return system;
 }
 
 MapEvidence ViewPatches::compare(const FramePyramid& image, const SE3& T_world_camera) const {
   const SE3 T_camera_view = T_world_camera.inverse() * T_world_view_;
   MapEvidence best;
+  double against = 0.0;
   for (const Level& level : levels_) {
     MapEvidence evidence = compare(level, image, T_camera_view);
     if (evidence.patches < options_.min_patches || evidence.share < options_.min_share) {
       best.share = std::max(best.share, evidence.share);
       continue;
     }
+    // What speaks against the pose on the finer level does so on the coarser one, too.
+    against = std::max(against, evidence.against);
+    evidence.against = against;
+    evidence.probability = confirmation_probability(evidence.score, evidence.patches, against, options_);
     evidence.verdict = evidence.probability >= options_.confirmed     ? Confirmation::confirmed
                        : evidence.probability < options_.contradicted ? Confirmation::contradicted
                                                                       : Confirmation::undecided;
     if (best.verdict == Confirmation::none || evidence.probability > best.probability) best = evidence;
     if (evidence.verdict == Confirmation::confirmed) break;
   }
-  if (best.verdict == Confirmation::none) best.probability = 0.0;
   return best;
 }
 

@@ -2,7 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <vector>
 
 #include "odosplat/odometry/confirm/camera_correction.hpp"
@@ -14,6 +14,8 @@ namespace odosplat {
 /// Side of the squares of a view that are compared with an image [px of its pyramid level].
 inline constexpr int patch_side = 8;
 inline constexpr int patch_pixels = patch_side * patch_side;
+/// Values of a square's pixels, row by row.
+using PatchValues = Eigen::Array<float, patch_pixels, 1>;
 
 struct ConfirmationOptions {
   bool enabled = true;             // false: every pose is accepted, as where the map has no colours
@@ -29,9 +31,14 @@ struct ConfirmationOptions {
   // values and the right ones that are not.
   double null_common = 0.05;
   double null_patch = 0.5;
-  double prior = 1e-3;        // probability of a right pose before the image is looked at
-  double confirmed = 0.99;    // probability from which a pose counts as confirmed
-  double contradicted = 0.5;  // probability below which it counts as contradicted, where the map could be compared
+  double prior = 1e-3;  // probability of a right pose before the image is looked at
+  // Parts of two places may be alike to the pixel, such as ceilings and walls: then the score is high, but the image
+  // also shows what the map does not.
+  double part_prior = 0.005;   // odds of a place alike in part to the right one, before the image is looked at
+  double right_against = 0.1;  // mean of MapEvidence::against at right poses, where it is modelled as exponential; for
+                               // places that are alike in part it is modelled as uniform
+  double confirmed = 0.99;     // probability from which a pose counts as confirmed
+  double contradicted = 0.5;   // probability below which it counts as contradicted, where the map could be compared
 
   /// Throws InputError naming the field.
   void check() const;
@@ -50,6 +57,7 @@ struct MapEvidence {
   double share = 0.0;        // of the image, where the view's squares fall
   int patches = 0;           // squares with texture on the level that decides
   double score = 0.0;        // -1..1, their mean correlation
+  double against = 0.0;      // share of the squares in which the image shows clearly what the map does not
   double probability = 0.0;  // that the pose is right; 0 where nothing can be compared
   Confirmation verdict = Confirmation::none;
 };
@@ -70,17 +78,19 @@ class ViewPatches {
   MapEvidence compare(const FramePyramid& image, const SE3& T_world_camera) const;
 
   /// The normal equations for pose and camera together: of the shifts that bring each square to agree with the image,
-  /// at T_camera_world and `camera`. coarse: 0 the finer level, 1 the coarser one. Squares that correlate by less than
-  /// min_patch are left out, others count by the square of their correlation.
-  MisfitSystem misfit(const FramePyramid& image, const SE3& T_camera_world, const CameraCorrection& camera, int coarse,
-                      double min_patch) const;
+  /// at T_camera_world and `camera`. velocity: of the camera, T_camera_world(t) = exp(t velocity) T_camera_world.
+  /// coarse: 0 the finer level, 1 the coarser one. Squares that correlate by less than min_patch are left out, others
+  /// count by the square of their correlation.
+  MisfitSystem misfit(const FramePyramid& image, const SE3& T_camera_world, const Vector6d& velocity,
+                      const CameraCorrection& camera, int coarse, double min_patch) const;
 
  private:
   struct Patch {
-    std::array<float, patch_pixels> x, y, z;  // [m] in the view's frame
-    std::array<float, patch_pixels> shape;    // grey values less mean and slope, of length 1; shorter if they hardly
-                                              // vary
+    PatchValues x, y, z;  // [m] in the view's frame
+    PatchValues shape;    // grey values less mean and slope, of length 1; shorter if they hardly vary
     bool textured = false;
+
+    Eigen::Vector3d point(int pixel) const { return Eigen::Vector3f(x[pixel], y[pixel], z[pixel]).cast<double>(); }
   };
   struct Level {
     int number = 0;  // of the pyramid
@@ -94,8 +104,8 @@ class ViewPatches {
   std::vector<Level> levels_;
 };
 
-/// Probability that a score is that of a right pose rather than of an image of another place: by Bayes' rule from the
-/// null distribution and scores that are uniform in 0..1 for right poses.
-double confirmation_probability(double score, int patches, const ConfirmationOptions& options);
+/// Probability that a pose is right, by Bayes' rule: against an image of another place, from the score, which is
+/// modelled as uniform in 0..1 for right poses; and against a place that is alike in part, from `against`.
+double confirmation_probability(double score, int patches, double against, const ConfirmationOptions& options);
 
 }  // namespace odosplat

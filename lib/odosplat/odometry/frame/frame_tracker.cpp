@@ -55,6 +55,8 @@ TrackedFrame FrameTracker::track(const PosedFrame& frame) {
   tracked.T_keyframe_camera = alignment.T_target_host.inverse();
   tracked.frame.T_world_camera = host.T_world_camera * tracked.T_keyframe_camera;
   tracked.frame.brightness = compose_brightness(alignment.brightness, host.brightness);
+  if (steps_ahead(history_, frame.time) > 0.0)
+    tracked.frame.velocity = velocity_to(history_, frame.time, tracked.frame.T_world_camera);
   if (host.patches != nullptr) {
     tracked.evidence = host.patches->compare(*tracked.frame.image.even, tracked.frame.T_world_camera);
     tracked.verifiable = host.in_map;

@@ -75,8 +75,8 @@ class FrameTracker {
   /// Not if empty().
   const ReferenceFrame& newest() const { return references_.back(); }
 
-  /// Finds the frame, of which number, time and image count. Afterwards the caller must call confirm() with the final pose, which a new keyframe may have
-  /// changed, or lose().
+  /// Finds the frame, of which number, time and image count. Afterwards the caller must call confirm() with the final
+  /// pose, which a new keyframe may have changed, or lose().
   TrackedFrame track(const PosedFrame& frame);
 
   /// Takes over the back end's keyframes (oldest first, not empty). If the newest is new, frames are aligned with it

@@ -39,6 +39,10 @@ double steps_ahead(const MotionHistory& history, double time) {
 
 SE3 predict(const MotionHistory& history, double time) { return continued(history, steps_ahead(history, time)); }
 
+Vector6d velocity_to(const MotionHistory& history, double time, const SE3& T_world_camera) {
+  return (T_world_camera.inverse() * history.last).log() / (time - history.last_time);
+}
+
 std::vector<SE3> motion_guesses(const MotionHistory& history, double time, const SE3& T_world_keyframe) {
   const double s = steps_ahead(history, time);
   std::vector<SE3> guesses{continued(history, s)};

@@ -32,6 +32,10 @@ SE3 predict(const MotionHistory& history, double time);
 /// last pose: without velocity, and over long gaps.
 double steps_ahead(const MotionHistory& history, double time);
 
+/// Mean velocity of the camera from the last pose to this one: T_camera_world(t) = exp(t velocity) T_camera_world.
+/// time must be later than the last pose's.
+Vector6d velocity_to(const MotionHistory& history, double time, const SE3& T_world_camera);
+
 /// Guesses for the pose at `time`, best first: constant velocity, twice and half of it, standing still, and the pose of
 /// `keyframe`. Source: DSO's list of motion hypotheses.
 std::vector<SE3> motion_guesses(const MotionHistory& history, double time, const SE3& T_world_keyframe);

@@ -15,6 +15,8 @@ struct PosedFrame {
   double time = 0.0;  // [s]
   EvenFrame image;
   SE3 T_world_camera;
+  /// Of the camera since the image before: T_camera_world(t) = exp(t velocity) T_camera_world; 0 where it is unknown.
+  Vector6d velocity = Vector6d::Zero();
   Brightness brightness;
 };
 

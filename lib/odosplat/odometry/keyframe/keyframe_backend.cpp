@@ -236,6 +236,10 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   KeyframeOutcome outcome;
   outcome.map_share = made.map_share;
   if (made.keyframe == nullptr) return outcome;
+  if (request.to_be_confirmed && patches != nullptr) {
+    outcome.evidence = patches->compare(*image.even, made.keyframe->T_world_camera);
+    if (outcome.evidence.verdict != Confirmation::confirmed) return outcome;
+  }
   outcome.made = true;
   outcome.anchored = made.anchored;
   outcome.prefetched = prefetched;
@@ -275,7 +279,8 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
     const StageTimer confirm_timer(stages_[stage_confirm]);
     outcome.evidence = patches->compare(*image.even, keyframe->T_world_camera);
     if (outcome.evidence.verdict == Confirmation::confirmed) {
-      outcome.misfit = misfit_.add(*patches, *image.even, keyframe->T_world_camera);
+      outcome.misfit =
+          misfit_.effect(misfit_.add(*patches, *image.even, keyframe->T_world_camera, request.frame.velocity), camera_);
       keyframe->misfit = outcome.misfit;
     }
     outcome.likely_cause = misfit_.likely_cause(camera_);

@@ -54,6 +54,7 @@ struct KeyframeRequest {
   PosedFrame frame;
   std::shared_ptr<MapView> view;  // rendered in place of the map, for example a depth sensor; null: the map
   int id = 0;                     // the keyframe's number, if it is made
+  bool to_be_confirmed = false;   // made only if the map's colours, where it has any, confirm the pose
   bool fresh = false;             // the existing keyframes are not to be trusted: the window starts anew with this one
 };
 

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
@@ -28,12 +29,28 @@ std::vector<std::size_t> best_of(std::size_t n, std::size_t most, const Value& v
   return order;
 }
 
+/// Why the map does not confirm a pose; empty: it does.
+std::string fault_of(const MapEvidence& evidence, double min_coverage, double min_score) {
+  constexpr double much = 0.25;
+  char text[96] = "";
+  if (evidence.share < min_coverage) {
+    std::snprintf(text, sizeof(text), "the map covers %.0f %% of the view", 100.0 * evidence.share);
+  } else if (evidence.verdict == Confirmation::none) {
+    return "too few parts of the view have texture";
+  } else if (evidence.verdict != Confirmation::confirmed && evidence.against > much) {
+    std::snprintf(text, sizeof(text), "%.0f %% of what the image shows is not in the map", 100.0 * evidence.against);
+  } else if (evidence.verdict != Confirmation::confirmed || evidence.score < min_score) {
+    std::snprintf(text, sizeof(text), "image and map correlate by only %.2f", evidence.score);
+  }
+  return text;
+}
+
 }  // namespace
 
 void RelocalizerOptions::check() const {
   index.check();
   pose.check();
-  verifier.check();
+  confirmation.check();
   aligner.check();
   selector.check();
   reference.check();
@@ -43,6 +60,8 @@ void RelocalizerOptions::check() const {
   require(candidates >= 1, "relocalizer.candidates", "at least 1");
   require(finalists >= 1, "relocalizer.finalists", "at least 1");
   require(same_distance > 0.0 && same_angle > 0.0, "relocalizer.same_distance and same_angle", "positive");
+  require(min_coverage >= 0.0 && min_coverage <= 1.0, "relocalizer.min_coverage", "in [0, 1]");
+  require(min_score >= -1.0 && min_score <= 1.0, "relocalizer.min_score", "in [-1, 1]");
   require(ambiguity >= 0.0, "relocalizer.ambiguity", "at least 0");
   require(min_inliers >= 0.0 && min_inliers <= 1.0, "relocalizer.min_inliers", "in [0, 1]");
   require(max_position_sigma > 0.0, "relocalizer.max_position_sigma", "positive");
@@ -114,6 +133,7 @@ Relocalization Relocalizer::look_up(const GrayImage& image, const std::optional<
   result.reason = best.fault;
   for (std::size_t k = 1; k < order.size() && result.reason.empty(); ++k) {
     const Finalist& other = finalists[order[k]];
+    if (other.evidence.verdict != Confirmation::confirmed) continue;
     if (is_same(other.candidate.T_world_camera(), best.candidate.T_world_camera())) continue;
     if (other.evidence.score > best.evidence.score - options_.ambiguity) result.reason = "two places look alike";
   }
@@ -169,9 +189,7 @@ std::vector<Relocalizer::Candidate> Relocalizer::propose(const GrayImage& gray,
 
 TrackingReference Relocalizer::reference_of(const FramePyramid& rendered, const ViewImages& view) const {
   PixelSelector selector(options_.selector);
-  return without_held_back(
-      build_reference(rendered, build_gradients(rendered), view, selector, options_.reference, options_.plane),
-      options_.verifier.block);
+  return build_reference(rendered, build_gradients(rendered), view, selector, options_.reference, options_.plane);
 }
 
 void Relocalizer::align(std::vector<Candidate>& candidates, const FramePyramid& image) {
@@ -213,8 +231,9 @@ Relocalizer::Finalist Relocalizer::verify(const Candidate& candidate, const Fram
   const SE3 T_world_camera = candidate.T_world_camera();
   const ViewImages view = map_.render(index_->camera(), T_world_camera, {true, false});
   const FramePyramid rendered = build_frame_pyramid(index_->camera(), to_gray(view.color), options_.smoothing);
-  finalist.evidence = compare_with_map(image.gray.front(), rendered.gray.front(), view.depth, options_.verifier);
-  finalist.fault = fault_of(finalist.evidence, options_.verifier);
+  const ViewPatches patches(index_->camera(), {T_world_camera, view}, options_.smoothing, options_.confirmation);
+  finalist.evidence = patches.compare(image, T_world_camera);
+  finalist.fault = fault_of(finalist.evidence, options_.min_coverage, options_.min_score);
   if (!finalist.fault.empty()) return finalist;
   if (candidate.alignment.inlier_share < options_.min_inliers) {
     finalist.fault = "too few points agree";

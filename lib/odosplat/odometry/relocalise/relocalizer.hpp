@@ -8,17 +8,17 @@
 
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/odometry/align/image_aligner.hpp"
+#include "odosplat/odometry/confirm/map_confirmation.hpp"
 #include "odosplat/odometry/frame/frame.hpp"
 #include "odosplat/odometry/relocalise/perspective_pose.hpp"
 #include "odosplat/odometry/relocalise/place_index.hpp"
-#include "odosplat/odometry/relocalise/pose_verifier.hpp"
 
 namespace odosplat {
 
 struct RelocalizerOptions {
   PlaceIndexOptions index;
   PerspectivePoseOptions pose;
-  PoseVerifierOptions verifier;
+  ConfirmationOptions confirmation;  // whether it is enabled does not count: a found pose must be confirmed
   ImageAlignerOptions aligner;
   SelectorOptions selector;
   ReferenceOptions reference;
@@ -29,6 +29,8 @@ struct RelocalizerOptions {
   int finalists = 3;                 // poses that are rendered again and verified
   double same_distance = 0.1;        // [m] poses within this and same_angle count as one
   double same_angle = 5.0 / 57.3;    // [rad]
+  double min_coverage = 0.6;         // share of the image that the map must show
+  double min_score = 0.5;            // MapEvidence::score: the best of many poses agrees better by chance than one pose
   double ambiguity = 0.1;            // score by which the best pose must beat every other one
   double min_inliers = 0.4;          // share of the points in view that must agree
   double max_position_sigma = 0.05;  // [m] largest standard deviation of the position by alignment, times root of
@@ -48,7 +50,7 @@ struct Relocalization {
   bool found = false;
   SE3 T_world_camera;         // identity if not found: no pose is made up
   Brightness brightness;      // of the image against the map's rendered one
-  double score = 0.0;         // of the best pose, PoseEvidence::score, also if it was refused
+  double score = 0.0;         // of the best pose, MapEvidence::score, also if it was refused
   double inlier_share = 0.0;  // of the best pose's alignment
   std::string reason;         // why not found; empty if found
 };
@@ -57,8 +59,8 @@ struct Relocalization {
 /// 1. The places most like the image, by thumbnail and by corners (PlaceIndex).
 /// 2. A pose from each: P3P on corners with rendered depth of the place and its neighbours, or the place's own.
 /// 3. Direct alignment (ImageAligner) of the image with the map rendered at that pose, twice.
-/// 4. Verification on squares of the image that were held back from alignment (compare_with_map); besides, the pose
-///    must be well determined, must be found again from a disturbed start, and no other place may look alike.
+/// 4. Confirmation by the map's colours (ViewPatches); besides, the pose must be well determined, must be found again
+///    from a disturbed start, and no other place may look alike.
 /// The first call renders every place. Images and views are at most options.index.width wide, so memory and time do not
 /// grow with the camera's size. Deterministic: the same bits for any number of threads. map must outlive this. Not
 /// thread safe.
@@ -87,13 +89,13 @@ class Relocalizer {
   };
   struct Finalist {
     Candidate candidate;
-    PoseEvidence evidence;
+    MapEvidence evidence;
     std::string fault;  // why it is not accepted
   };
 
   Relocalization look_up(const GrayImage& image, const std::optional<SE3>& T_world_near);
   std::vector<Candidate> propose(const GrayImage& gray, const std::optional<SE3>& T_world_near) const;
-  /// The points of a rendered view to align with, without those held back for verification.
+  /// The points of a rendered view to align with.
   TrackingReference reference_of(const FramePyramid& rendered, const ViewImages& view) const;
   void align(std::vector<Candidate>& candidates, const FramePyramid& image);
   std::vector<Candidate> distinct(std::vector<Candidate> candidates, std::size_t most) const;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "apps/cli/relocalise/camera_watch.hpp"
 #include "apps/command/interrupt.hpp"
 #include "apps/command/json_text.hpp"
 #include "apps/command/no_result.hpp"
@@ -58,6 +59,7 @@ struct Row {
   bool judged;  // whether there is a true pose
   double seconds;
   double cpu_seconds;  // of all threads; unlike wall time it does not depend on other load of the machine
+  PoseByCamera pose;   // of a frame that was found
 };
 
 /// Whether at least half of the pixels with depth in a view of the whole map belong to the half that is left out.
@@ -105,20 +107,34 @@ std::vector<std::size_t> chosen_frames(const Common& common, const Sequence& seq
   return frames;
 }
 
-Row look_up(Relocalizer& relocalizer, const Sequence& sequence, std::size_t i) {
+Row look_up(Relocalizer& relocalizer, CameraWatch& watch_camera, const Sequence& sequence, std::size_t i) {
   const GrayImage image = sequence.gray(i);
   const double cpu_start = cpu_seconds();
   const Stopwatch watch;
-  Row row{i, relocalizer.find(image), {}, {}, sequence.T_world_camera(i).has_value(), 0.0, 0.0};
+  Row row{i, relocalizer.find(image), {}, {}, sequence.T_world_camera(i).has_value(), 0.0, 0.0, {}};
   row.seconds = watch.seconds();
   row.cpu_seconds = cpu_seconds() - cpu_start;
-  const auto truth = sequence.T_world_camera(i);
-  if (row.answer.found && truth) {
+  if (row.answer.found) row.pose = watch_camera.add(image, row.answer.T_world_camera);
+  return row;
+}
+
+/// Refuses the frames whose pose a wrong camera has moved too far, and compares the others with the truth.
+void judge(std::vector<Row>& rows, const CameraWatch& watch_camera, const Sequence& sequence) {
+  for (Row& row : rows) {
+    if (!row.answer.found) continue;
+    const std::string fault = watch_camera.fault_of(row.pose);
+    if (!fault.empty()) {
+      row.answer.found = false;
+      row.answer.T_world_camera = SE3();
+      row.answer.reason = fault;
+      continue;
+    }
+    const auto truth = sequence.T_world_camera(row.frame);
+    if (!truth) continue;
     const SE3 difference = truth->inverse() * row.answer.T_world_camera;
     row.error_m = difference.translation().norm();
     row.error_deg = difference.angle() * 180.0 / 3.14159265358979323846;
   }
-  return row;
 }
 
 struct Summary {
@@ -200,7 +216,7 @@ void print_found(const Summary& s) {
 }
 
 void write_report(const std::string& file, const Summary& s, const std::vector<Row>& rows, const Sequence& sequence,
-                  std::size_t places, double index_s, const OptionValues& options) {
+                  std::size_t places, double index_s, const std::string& likely_cause, const OptionValues& options) {
   const auto if_judged = [&](int count) { return s.judged > 0 ? nlohmann::ordered_json(count) : nullptr; };
   nlohmann::ordered_json json{{"views", s.views},
                               {"found", s.found},
@@ -208,6 +224,7 @@ void write_report(const std::string& file, const Summary& s, const std::vector<R
                               {"within_2cm_1deg", if_judged(s.good)},
                               {"beyond_10cm", if_judged(s.wrong)},
                               {"refused", s.refused},
+                              {"camera", likely_cause},
                               {"places", places},
                               {"index_seconds", index_s},
                               {"seconds", json_of(s.seconds)},
@@ -234,12 +251,13 @@ void run(const Common& common, const RelocaliseJob& job) {
   const std::size_t kept = relocalizer.prepare();
   const double index_s = watch.seconds();
   std::vector<Row> rows;
+  CameraWatch watch_camera(sequence.camera(), *opened.view);
   Progress progress("relocalise", static_cast<long>(frames.size()));
   UnreadableFrames unreadable;
   for (const std::size_t i : frames) {
     if (interrupted()) throw Interrupted();
     try {
-      rows.push_back(look_up(relocalizer, sequence, i));
+      rows.push_back(look_up(relocalizer, watch_camera, sequence, i));
     } catch (const InputError& e) {
       unreadable.add(e.what());
     }
@@ -248,6 +266,11 @@ void run(const Common& common, const RelocaliseJob& job) {
   progress.finish();
   unreadable.report(frames.size());
   if (opened.device) print_profile(common, *opened.device);
+  judge(rows, watch_camera, sequence);
+  if (!watch_camera.likely_cause().empty()) {
+    log_warning(sequence.name() + ": " + watch_camera.likely_cause() +
+                "; poses that this changes by centimetres are refused");
+  }
   const Summary s = summarise(rows);
   print("%zu places of %zu, rendered in %.2f s\n", kept, places.size(), index_s);
   print_found(s);
@@ -255,7 +278,8 @@ void run(const Common& common, const RelocaliseJob& job) {
         percentile(s.seconds, 50.0), percentile(s.seconds, 95.0), s.seconds.back(), percentile(s.cpu_seconds, 50.0),
         percentile(s.cpu_seconds, 95.0), s.cpu_seconds.back());
   if (!job.out.empty()) write_trajectory(job.out, found_poses(rows, sequence));
-  if (!job.json.empty()) write_report(job.json, s, rows, sequence, kept, index_s, job.options);
+  if (!job.json.empty())
+    write_report(job.json, s, rows, sequence, kept, index_s, watch_camera.likely_cause(), job.options);
   if (s.found == 0) {
     throw NoResult("none of " + std::to_string(s.views) +
                    " images found: the map does not show what they show, or the camera is wrong");
