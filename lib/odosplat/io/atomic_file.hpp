@@ -39,9 +39,10 @@ class MadeFolders {
 
 /// A file that is written under a temporary name in the same folder and renamed at the end: a reader sees the old file
 /// or the whole new one, never a part. Missing parent folders are created. If the path is a symbolic link, the file
-/// that it points to is replaced; links that belong neither to this user nor to root are refused, and so is a path at
-/// which there is something other than a regular file, and "-" and the links of open files (/dev/stdout). A file that replaces another gets its mode and, as far as this
-/// user is permitted to set them, its owner and group; a file that replaces none gets mode 0666 reduced by the umask.
+/// that it points to is replaced; links that belong neither to this user nor to root are refused, and so are a path at
+/// which there is something other than a regular file, "-", and the links of open files (/dev/stdout). A file that
+/// replaces another gets its mode and, as far as this user is permitted to set them, its owner and group; a file that
+/// replaces none gets mode 0666 reduced by the umask.
 /// Every call throws InputError naming the path and the reason ("cannot be written"). Without commit() the destructor
 /// removes everything. Not thread safe; different files may be written by different threads.
 class AtomicFile {

@@ -35,7 +35,7 @@ class CameraMisfit {
   explicit CameraMisfit(const CameraMisfitOptions& options);
 
   /// Adds an image whose pose the map confirms. velocity: as in ViewPatches::misfit; 0 where it is unknown. Returns how
-  /// its pose depends on the camera; no change where it could not be compared.
+  /// its pose depends on the camera; undetermined where it could not be compared.
   PoseByCamera add(const ViewPatches& patches, const FramePyramid& image, const SE3& T_world_camera,
                    const Vector6d& velocity);
 
