@@ -32,6 +32,10 @@ Rgb toward_white(const Rgb& color, double share);
 /// Source: the palette of Okabe and Ito 2008, in order of contrast on white. index is taken modulo its length.
 Rgb series_color(std::size_t index);
 
+/// The true path, and what joins the parts of a path where the pose was lost, in all figures of trajectories.
+inline const Rgb truth_color{0, 0, 0};
+inline const Rgb lost_color{0, 90, 220};
+
 /// The two greys of the hatching that marks "no value". Neither scale contains grey, so it cannot be taken for a value.
 inline const Rgb hatch_light{236, 236, 236};
 inline const Rgb hatch_dark{172, 172, 172};

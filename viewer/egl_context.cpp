@@ -7,10 +7,11 @@
 #include <EGL/eglext.h>
 
 #include <array>
-#include <cstdio>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
+
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 namespace {
@@ -24,11 +25,7 @@ bool has_extension(const char* list, std::string_view name) {
   return false;
 }
 
-std::string egl_error() {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "0x%x", static_cast<unsigned>(eglGetError()));
-  return text.data();
-}
+std::string egl_error() { return formatted("0x%x", static_cast<unsigned>(eglGetError())); }
 
 template <typename Function>
 Function egl_function(const char* name) {

@@ -4,18 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 namespace {
 
 std::string fixed(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", std::clamp(decimals, 0, 12), value);
-  std::string result = text;
+  const std::string text = formatted("%.*f", std::clamp(decimals, 0, 12), value);
   // Removes the sign of a negative number that was rounded to zero ("-0.0").
-  if (result.front() == '-' && result.find_first_not_of("-0.") == std::string::npos) return result.substr(1);
-  return result;
+  if (text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos) return text.substr(1);
+  return text;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "apps/benchmark/method_recipes.hpp"
 #include "apps/benchmark/protocol.hpp"
-#include "odosplat/core/number_text.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/io/sequence/sequence.hpp"
 
 namespace odosplat::apps {

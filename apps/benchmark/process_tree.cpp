@@ -15,6 +15,8 @@
 #include <ctime>
 #include <string>
 
+#include "odosplat/core/formatted.hpp"
+
 namespace odosplat::apps {
 namespace {
 
@@ -27,10 +29,9 @@ struct Listed {
 /// Reads /proc/PID/stat. The process name, in parentheses, may contain any characters; after it follow state, parent,
 /// ..., and as field 24 the number of resident pages. False if the process has ended.
 bool read_entry(const char* pid, double page_mb, Listed& entry) {
-  char text[1024];
-  std::snprintf(text, sizeof(text), "/proc/%s/stat", pid);
-  const int file = ::open(text, O_RDONLY | O_CLOEXEC);
+  const int file = ::open(formatted("/proc/%s/stat", pid).c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;
+  char text[1024];
   const ssize_t n = ::read(file, text, sizeof(text) - 1);
   ::close(file);
   if (n <= 0) return false;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -16,6 +15,7 @@
 #include "apps/command/output.hpp"
 #include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -39,12 +39,10 @@ void print_summary(const BenchmarkResults& results) {
     print("%-12s", sequence.name.c_str());
     for (const std::string& method : results.methods) {
       const auto cell = summarise(results, sequence.name, method);
-      char text[40] = "x";
-      if (cell && cell->runs > 0) {
-        std::snprintf(text, sizeof(text), "%.2f%s", 1000.0 * cell->ate_m.median,
-                      cell->coverage.median < 0.995 ? " (part)" : "");
-      }
-      print(" %18s", text);
+      const std::string text = cell && cell->runs > 0 ? formatted("%.2f%s", 1000.0 * cell->ate_m.median,
+                                                                  cell->coverage.median < 0.995 ? " (part)" : "")
+                                                      : "x";
+      print(" %18s", text.c_str());
     }
     print("\n");
   }

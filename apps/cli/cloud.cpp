@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 
 #include "apps/command/interrupt.hpp"
@@ -13,6 +12,7 @@
 #include "apps/input/unreadable_frames.hpp"
 #include "odosplat/cloud/cloud_builder.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -71,9 +71,7 @@ PointCloud cloud_of_sequences(const CloudFlags& flags) {
 
 std::vector<std::string> notes_of(const Eigen::Vector3d& origin) {
   if (origin.isZero(0.0)) return {};
-  char text[120];
-  std::snprintf(text, sizeof(text), "origin taken off %.15g %.15g %.15g", origin.x(), origin.y(), origin.z());
-  return {text};
+  return {formatted("origin taken off %.15g %.15g %.15g", origin.x(), origin.y(), origin.z())};
 }
 
 void run(const CloudFlags& flags) {

@@ -2,7 +2,6 @@
 // Copyright 2026 The odosplat authors
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <sstream>
 
@@ -10,6 +9,7 @@
 #include "apps/command/output.hpp"
 #include "apps/input/map_views.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/near_origin.hpp"
 #include "odosplat/core/progress.hpp"
@@ -58,9 +58,7 @@ Wanted parse_what(const std::string& text) {
 }
 
 std::string file_of(const RenderFlags& flags, const char* kind, std::size_t k) {
-  char name[64];
-  std::snprintf(name, sizeof(name), "/%s/%06zu.png", kind, k);
-  return flags.out + name;
+  return flags.out + formatted("/%s/%06zu.png", kind, k);
 }
 
 void run(const Common& common, const RenderFlags& flags) {
@@ -97,10 +95,8 @@ void run(const Common& common, const RenderFlags& flags) {
   }
   progress.finish();
   if (too_far > 0) {
-    char text[160];
-    std::snprintf(text, sizeof(text), "%zu pixels lie beyond the %.3g m that 16 bits at depth_scale %g hold: depth 0",
-                  too_far, largest_depth(camera.depth_scale), camera.depth_scale);
-    log_warning(flags.out + ": " + text);
+    log_warning(flags.out + formatted(": %zu pixels lie beyond the %.3g m that 16 bits at depth_scale %g hold: depth 0",
+                                      too_far, largest_depth(camera.depth_scale), camera.depth_scale));
   }
   if (opened.device) print_profile(common, *opened.device);
   print("%s: %zu views\n", flags.out.c_str(), poses.size());

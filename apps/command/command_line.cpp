@@ -252,6 +252,7 @@ void declare_commands(CLI::App& app, Common& common) {
   app.require_subcommand(1);
   add_devices(app, common);
   add_check(app, common);
+  add_calibrate(app, common);
   add_cloud(app, common);
   add_align(app, common);
   add_convert(app, common);

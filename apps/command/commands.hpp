@@ -25,6 +25,7 @@ struct Common {
 CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& help);
 
 void add_devices(CLI::App& app, Common& common);
+void add_calibrate(CLI::App& app, Common& common);
 void add_check(CLI::App& app, Common& common);
 void add_cloud(CLI::App& app, Common& common);
 void add_align(CLI::App& app, Common& common);

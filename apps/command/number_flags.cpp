@@ -40,8 +40,8 @@ std::string words_for(const Bounds<std::uint64_t>& bounds) { return integer_word
 std::string words_for(const Bounds<double>& bounds) {
   const bool open_below = bounds.least == std::numeric_limits<double>::lowest();
   const bool open_above = bounds.most == std::numeric_limits<double>::max();
-  const std::string least = number_text(bounds.least);
-  const std::string most = number_text(bounds.most);
+  const std::string least = shortest_number_text(bounds.least);
+  const std::string most = shortest_number_text(bounds.most);
   if (open_below && open_above) return with_word(bounds, "a finite number");
   if (open_above)
     return with_word(bounds, bounds.least_excluded ? "a number above " + least : "a number of " + least + " or more");
@@ -59,7 +59,7 @@ double number_from(const std::string& flag, const std::string& text, const Bound
   return parsed(flag, text, bounds);
 }
 
-std::string number_text(double value) {
+std::string shortest_number_text(double value) {
   char text[64];
   const auto [end, error] = std::to_chars(text, text + sizeof(text), value);
   return error == std::errc() ? std::string(text, end) : std::to_string(value);

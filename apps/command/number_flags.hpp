@@ -35,7 +35,7 @@ std::uint64_t number_from(const std::string& flag, const std::string& text, cons
 double number_from(const std::string& flag, const std::string& text, const Bounds<double>& bounds);
 
 /// The shortest text that reads back as the same number.
-std::string number_text(double value);
+std::string shortest_number_text(double value);
 
 /// For add_numbers: no upper limit on the count.
 inline constexpr int most_numbers = CLI::detail::expected_max_vector_size;
@@ -64,7 +64,7 @@ template <typename T>
 std::string default_text(T value, const Bounds<T>& bounds) {
   if (bounds.word != nullptr && value == bounds.meaning) return bounds.word;
   if constexpr (std::is_floating_point_v<T>) {
-    return number_text(value);
+    return shortest_number_text(value);
   } else {
     return std::to_string(value);
   }

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/terminal_text.hpp"
 
 namespace odosplat::apps {
@@ -44,15 +45,8 @@ void check_extension(const std::string& path, std::initializer_list<const char*>
 void print(const char* format, ...) {
   std::va_list arguments;
   va_start(arguments, format);
-  std::va_list again;
-  va_copy(again, arguments);
-  const int size = std::vsnprintf(nullptr, 0, format, arguments);
+  const std::string shown = printable_text(formatted_list(format, arguments));
   va_end(arguments);
-  std::string text(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
-  // vsnprintf() writes its terminating zero to the position where std::string has its own.
-  std::vsnprintf(text.data(), text.size() + 1, format, again);
-  va_end(again);
-  const std::string shown = printable_text(text);
   errno = 0;
   if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size()) fail_output();
 }

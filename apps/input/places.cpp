@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "odosplat/cloud/neighbor_search.hpp"
 #include "odosplat/core/error.hpp"
@@ -60,7 +61,7 @@ std::vector<SE3> sampled_places(const std::vector<Eigen::Vector3f>& points_world
       if (search.nearest(t.cast<float>(), 1, &index, &squared) < 1 || squared < clearance * clearance) continue;
       for (int k = 0; k < directions && places.size() < most; ++k) {
         const Eigen::Vector3d level = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(side_a));
-        const Eigen::Vector3d forward = so3_exp(down * (2.0 * 3.14159265358979323846 * k / directions)) * level;
+        const Eigen::Vector3d forward = so3_exp(down * (2.0 * std::numbers::pi * k / directions)) * level;
         Eigen::Matrix3d R_world_camera;
         R_world_camera << down.cross(forward), down, forward;
         places.emplace_back(R_world_camera, t);

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <type_traits>
 
 #include "apps/command/nearest_name.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -247,11 +247,9 @@ void add_set_flag(CLI::App* command, std::vector<std::string>& settings, const s
 
 std::string options_table() {
   std::string text;
-  char line[160];
   for (const PublicOption& option : public_options()) {
-    std::snprintf(line, sizeof(line), "%-30s %-10s %-14s %s\n", option.name.c_str(), option.default_text().c_str(),
-                  range_text(option).c_str(), option.unit.c_str());
-    text += line + ("    " + option.meaning + "\n");
+    text += formatted("%-30s %-10s %-14s %s\n    %s\n", option.name.c_str(), option.default_text().c_str(),
+                      range_text(option).c_str(), option.unit.c_str(), option.meaning.c_str());
   }
   return text;
 }

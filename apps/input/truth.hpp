@@ -34,11 +34,11 @@ struct JudgedTrajectory {
 };
 
 /// Reads EST and the truth. The truth is a file of poses, or a sequence in any layout. The poses of a sequence are in
-/// the convention in which `track` writes its poses (reflected where fy is negative); all poses of the data set are
-/// used, or those in the time range of the images of --frames if that is given. The span is the intersection of the
-/// span of the sequence's images and that in status.csv beside EST, which `track` writes; one of them if the other is
-/// unknown. InputError if the sequence has no poses there, if --frames is given without a sequence, or for time stamps
-/// that require_comparable_stamps refuses.
+/// the convention in which `track` writes its poses (reflected where fy is negative) and by the images' stamps
+/// (Sequence::truth); all of these are used, or those in the time range of the images of --frames if that is given.
+/// The span is the intersection of the span of the sequence's images and that in status.csv beside EST, which `track`
+/// writes; one of them if the other is unknown. InputError if the sequence has no poses there, if --frames is given
+/// without a sequence, or for time stamps that require_comparable_stamps refuses.
 JudgedTrajectory read_judged(const std::string& estimate, const std::string& estimate_times, const TruthFlags& truth);
 
 }  // namespace odosplat::apps

@@ -96,7 +96,7 @@ Script script_of(const World& world, const std::string& under,
   for (std::size_t k = 0; k < script.size(); ++k) {
     if (k % period < open) continue;
     script[k].blind = true;
-    script[k].edit = [](const GrayImage& image) { return GrayImage(image.rows, image.cols, 0.0F); };
+    script[k].edit = [&world](const GrayImage&) { return uniform_image(world.camera(), 0.0); };
   }
   return script;
 }

@@ -132,6 +132,27 @@ TEST_F(Eval, TakesPosesWithoutTimesForThoseOfAsManyImages) {
   EXPECT_THAT(fewer.err, HasSubstr("has no times"));
 }
 
+TEST_F(Eval, AnEstimateIsComparedWithThePoseOfTheTimeAtWhichItsImageWasTaken) {
+  std::string rgb;
+  std::string truth;
+  put("seq/camera.yaml", camera_yaml + "time_offset: 0.1\n");  // three images
+  for (int k = 0; k < frames; ++k) {
+    const std::string id = std::to_string(k);
+    char stamp[40];
+    std::snprintf(stamp, sizeof(stamp), "%.6f", k / 30.0);
+    put_image("seq/rgb/" + id + ".png", k);
+    rgb += std::string(stamp) + " rgb/" + id + ".png\n";
+    truth += tum(stamp, pose_of(k));
+  }
+  put("seq/rgb.txt", rgb);
+  put("seq/groundtruth.txt", truth);
+  const RunResult run = eval(estimate(3, frames - 3, 1.0, -0.1), scratch_ / "seq");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(report()["pairs"], frames - 3);
+  EXPECT_EQ(report()["coverage"], 1.0);
+  EXPECT_NEAR(report()["ate_m"]["max"], 0.01, 1e-6);
+}
+
 TEST_F(Eval, RefusesErrorsThatAreNoNumbers) {
   const std::string truth = put("truth.txt", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
   const RunResult run = eval(put("est.txt", "0 1e300 0 0 0 0 0 1\n1 -1e300 0 0 0 0 0 1\n"), truth);

@@ -14,7 +14,7 @@ namespace odosplat {
 namespace {
 
 constexpr double elevation = 0.8;  // [rad]
-const Rgb path_color(213, 94, 0);
+const Rgb cameras_color(213, 94, 0);
 
 struct MapLayout {
   cv::Size page;
@@ -61,9 +61,9 @@ void add_frustum(FigureMesh& mesh, const Camera& camera, const SE3& T_world_came
     corners.push_back(T_world_camera * Eigen::Vector3d(depth * camera.ray(u, v)));
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    mesh.add_tube(T_world_camera.translation(), corners[i], radius, path_color, path_color);
-    mesh.add_tube(corners[i], corners[(i + 1) % 4], radius, path_color, path_color);
-    mesh.add_ball(corners[i], radius, path_color);
+    mesh.add_tube(T_world_camera.translation(), corners[i], radius, cameras_color, cameras_color);
+    mesh.add_tube(corners[i], corners[(i + 1) % 4], radius, cameras_color, cameras_color);
+    mesh.add_ball(corners[i], radius, cameras_color);
   }
 }
 
@@ -99,7 +99,7 @@ cv::Mat3b draw_map(const MapFigure& figure) {
   if (!path.empty() && scale > 0.0) {
     const double pixel = 1.0 / scale;
     FigureLayer lines{FigureMesh(center)};
-    lines.mesh.add_path(path, std::max(0.7, 0.0016 * layout.page.width) * pixel, {path_color});
+    lines.mesh.add_path(path, std::max(0.7, 0.0016 * layout.page.width) * pixel, {cameras_color});
     Camera camera = figure.camera;
     if (camera.width == 0) camera = {640, 480, 554.0, 554.0, 319.5, 239.5};
     camera.check();

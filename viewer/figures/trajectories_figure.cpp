@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/color_map.hpp"
 #include "viewer/figure_view.hpp"
 #include "viewer/figures/decorations.hpp"
 #include "viewer/figures/trajectory_figure.hpp"
@@ -16,8 +17,6 @@ namespace {
 
 // Light enough that the black line over it is visible in greyscale, dark enough for a white background.
 const Rgb estimate_color(230, 159, 0);
-const Rgb truth_color(0, 0, 0);
-const Rgb lost_color(0, 90, 220);
 
 using Path = std::vector<Eigen::Vector3d>;
 

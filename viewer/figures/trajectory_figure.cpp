@@ -10,6 +10,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/upper_median.hpp"
 #include "odosplat/eval/association.hpp"
+#include "viewer/color_map.hpp"
 #include "viewer/figures/decorations.hpp"
 #include "viewer/page.hpp"
 #include "viewer/text.hpp"
@@ -19,9 +20,7 @@ namespace odosplat {
 namespace {
 
 const Rgb rim_color(70, 70, 70);
-const Rgb truth_color(0, 0, 0);
 const Rgb unknown_color(0, 114, 178);
-const Rgb lost_color(0, 90, 220);
 
 /// The paths that are drawn.
 struct Paths {

@@ -44,7 +44,7 @@ figcaption { max-width: 48rem; }
 }
 )";
 
-std::string escaped(const std::string& text) {
+std::string html_escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
@@ -87,17 +87,17 @@ std::string base64(const std::string& bytes) {
 }
 
 std::string label_text(const std::string& label) {
-  return label.empty() ? "" : " <span class=\"label\">" + escaped(label) + "</span>";
+  return label.empty() ? "" : " <span class=\"label\">" + html_escaped(label) + "</span>";
 }
 
-std::string cell_text(const ReportCell& cell) {
-  std::string text = escaped(cell.text);
+std::string html_cell(const ReportCell& cell) {
+  std::string text = html_escaped(cell.text);
   if (cell.mark == RankMark::best) text = "<b>" + text + "</b>";
   if (cell.mark == RankMark::second) text = "<u>" + text + "</u>";
   if (cell.note > 0) text += "<sup>" + std::to_string(cell.note) + "</sup>";
   if (!cell.spread.empty()) {
     // A permitted line break within the spread, for wide tables in print, where nothing scrolls.
-    std::string spread = escaped(cell.spread);
+    std::string spread = html_escaped(cell.spread);
     spread.insert(spread.find("..") + 2, "<wbr>");
     text += "<small>" + spread + "</small>";
   }
@@ -117,75 +117,75 @@ std::string classes(const ReportTable& table, std::size_t column) {
 std::string heads_text(const ReportTable& table) {
   std::string text = "<thead>\n";
   const std::string rows = table.has_groups() ? " rowspan=\"2\"" : "";
-  text += "<tr><th class=\"name\"" + rows + ">" + escaped(table.row_head) + "</th>";
-  if (!table.method_head.empty()) text += "<th class=\"name\"" + rows + ">" + escaped(table.method_head) + "</th>";
+  text += "<tr><th class=\"name\"" + rows + ">" + html_escaped(table.row_head) + "</th>";
+  if (!table.method_head.empty()) text += "<th class=\"name\"" + rows + ">" + html_escaped(table.method_head) + "</th>";
   if (table.has_groups()) {
     for (std::size_t begin = 0; begin < table.columns.size();) {
       std::size_t end = begin + 1;
       while (end < table.columns.size() && !opens_group(table, end)) ++end;
       text += "<th class=\"group first\" colspan=\"" + std::to_string(end - begin) + "\">" +
-              escaped(table.columns[begin].group) + "</th>";
+              html_escaped(table.columns[begin].group) + "</th>";
       begin = end;
     }
     text += "</tr>\n<tr>";
   }
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    text += "<th" + classes(table, c) + ">" + escaped(table.columns[c].head) + "</th>";
+    text += "<th" + classes(table, c) + ">" + html_escaped(table.columns[c].head) + "</th>";
   }
   return text + "</tr>\n</thead>\n";
 }
 
-std::string table_text(const ReportTable& table) {
-  std::string text = "<h3>" + escaped(table.title) + label_text(table.label) + "</h3>\n";
-  if (!table.caption.empty()) text += "<p>" + escaped(table.caption) + "</p>\n";
+std::string html_table(const ReportTable& table) {
+  std::string text = "<h3>" + html_escaped(table.title) + label_text(table.label) + "</h3>\n";
+  if (!table.caption.empty()) text += "<p>" + html_escaped(table.caption) + "</p>\n";
   const bool wide = table.columns.size() > 12;
   text += std::string("<div class=\"scroll\" tabindex=\"0\"><table") + (wide ? " class=\"wide\"" : "") + ">\n" +
           heads_text(table) + "<tbody>\n";
   for (const ReportRow& row : table.rows) {
-    text += "<tr><th class=\"name\">" + escaped(row.name) + "</th>";
-    if (!table.method_head.empty()) text += "<td class=\"words\">" + escaped(row.method) + "</td>";
+    text += "<tr><th class=\"name\">" + html_escaped(row.name) + "</th>";
+    if (!table.method_head.empty()) text += "<td class=\"words\">" + html_escaped(row.method) + "</td>";
     for (std::size_t c = 0; c < row.cells.size(); ++c) {
-      text += "<td" + classes(table, c) + ">" + cell_text(row.cells[c]) + "</td>";
+      text += "<td" + classes(table, c) + ">" + html_cell(row.cells[c]) + "</td>";
     }
     text += "</tr>\n";
   }
   text += "</tbody></table></div>\n";
   for (std::size_t n = 0; n < table.notes.size(); ++n) {
-    text += "<p class=\"note\"><sup>" + std::to_string(n + 1) + "</sup> " + escaped(table.notes[n]) + "</p>\n";
+    text += "<p class=\"note\"><sup>" + std::to_string(n + 1) + "</sup> " + html_escaped(table.notes[n]) + "</p>\n";
   }
   return text;
 }
 
 std::string figure_text(const ReportFigure& figure, const std::string& folder) {
-  std::string text = "<h3>" + escaped(figure.title) + "</h3>\n";
-  if (!figure.missing.empty()) return text + "<p>Left out: " + escaped(figure.missing) + "</p>\n";
-  return text + "<figure><img" + (figure.wide ? " class=\"wide\"" : "") + " alt=\"" + escaped(figure.title) +
+  std::string text = "<h3>" + html_escaped(figure.title) + "</h3>\n";
+  if (!figure.missing.empty()) return text + "<p>Left out: " + html_escaped(figure.missing) + "</p>\n";
+  return text + "<figure><img" + (figure.wide ? " class=\"wide\"" : "") + " alt=\"" + html_escaped(figure.title) +
          "\" src=\"data:image/png;base64," + base64(read_file(folder + "/" + figure.file)) + "\">\n<figcaption>" +
-         escaped(figure.caption) + "</figcaption></figure>\n";
+         html_escaped(figure.caption) + "</figcaption></figure>\n";
 }
 
 }  // namespace
 
 std::string html_of(const BenchmarkResults& results, const ReportTables& tables,
                     const std::vector<ReportFigure>& figures, const std::string& folder) {
-  const std::string title = "Benchmark " + escaped(results.suite);
+  const std::string title = "Benchmark " + html_escaped(results.suite);
   std::string text =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
       title + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<h1>" + title + label_text(label_of(results)) +
       "</h1>\n";
   const std::string warning = stand_in_warning(results);
-  if (!warning.empty()) text += "<p class=\"warning\">" + escaped(warning) + "</p>\n";
+  if (!warning.empty()) text += "<p class=\"warning\">" + html_escaped(warning) + "</p>\n";
   text += "<dl>\n";
   for (const ReportFact& fact : report_facts(results)) {
-    text += "<dt>" + escaped(fact.name) + "</dt><dd>" + escaped(fact.text) + "</dd>\n";
+    text += "<dt>" + html_escaped(fact.name) + "</dt><dd>" + html_escaped(fact.text) + "</dd>\n";
   }
   text += "</dl>\n<h2>Tables</h2>\n";
-  for (const ReportTable& table : tables.accuracy) text += table_text(table);
+  for (const ReportTable& table : tables.accuracy) text += html_table(table);
   if (!figures.empty()) text += "<h2>Figures</h2>\n";
   for (const ReportFigure& figure : figures) text += figure_text(figure, folder);
   text += "<h2>Speed</h2>\n";
-  for (const ReportTable& table : tables.speed) text += table_text(table);
+  for (const ReportTable& table : tables.speed) text += html_table(table);
   return text + "</body>\n</html>\n";
 }
 

@@ -8,7 +8,7 @@ namespace odosplat::apps {
 namespace {
 
 /// Escapes Markdown's special characters. Underscores within words are not escaped: Markdown does not interpret them.
-std::string escaped(const std::string& text) {
+std::string markdown_escaped(const std::string& text) {
   const auto in_word = [&](std::size_t i) {
     return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_');
   };
@@ -49,39 +49,40 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string cell_text(const ReportCell& cell) {
-  std::string text = escaped(cell.text);
+std::string markdown_cell(const ReportCell& cell) {
+  std::string text = markdown_escaped(cell.text);
   if (cell.mark == RankMark::best) text = "**" + text + "**";
   if (cell.mark == RankMark::second) text = "<u>" + text + "</u>";
   if (cell.note > 0) text += "<sup>" + std::to_string(cell.note) + "</sup>";
-  if (!cell.spread.empty()) text += "<br><small>" + escaped(cell.spread) + "</small>";
+  if (!cell.spread.empty()) text += "<br><small>" + markdown_escaped(cell.spread) + "</small>";
   return text;
 }
 
-std::string table_text(const ReportTable& table) {
-  std::string text = "### " + escaped(table.labelled_title()) + "\n\n";
-  if (!table.caption.empty()) text += escaped(table.caption) + "\n\n";
+std::string markdown_table(const ReportTable& table) {
+  std::string text = "### " + markdown_escaped(table.labelled_title()) + "\n\n";
+  if (!table.caption.empty()) text += markdown_escaped(table.caption) + "\n\n";
   const bool methods = !table.method_head.empty();
-  std::string heads = "| " + escaped(table.row_head) + " |";
+  std::string heads = "| " + markdown_escaped(table.row_head) + " |";
   std::string rules = "|---|";
   if (methods) {
-    heads += " " + escaped(table.method_head) + " |";
+    heads += " " + markdown_escaped(table.method_head) + " |";
     rules += "---|";
   }
   for (const ReportColumn& column : table.columns) {
     // Markdown tables have one header row: the group's name goes above the column's own in the same cell.
-    heads += " " + (column.group.empty() ? "" : escaped(column.group) + "<br>") + escaped(column.head) + " |";
+    heads += " " + (column.group.empty() ? "" : markdown_escaped(column.group) + "<br>") +
+             markdown_escaped(column.head) + " |";
     rules += column.words ? "---|" : "---:|";
   }
   text += heads + "\n" + rules + "\n";
   for (const ReportRow& row : table.rows) {
-    text += "| " + escaped(row.name) + " |";
-    if (methods) text += " " + escaped(row.method) + " |";
-    for (const ReportCell& cell : row.cells) text += " " + cell_text(cell) + " |";
+    text += "| " + markdown_escaped(row.name) + " |";
+    if (methods) text += " " + markdown_escaped(row.method) + " |";
+    for (const ReportCell& cell : row.cells) text += " " + markdown_cell(cell) + " |";
     text += "\n";
   }
   for (std::size_t n = 0; n < table.notes.size(); ++n) {
-    text += "\n<sup>" + std::to_string(n + 1) + "</sup> " + escaped(table.notes[n]) + "\n";
+    text += "\n<sup>" + std::to_string(n + 1) + "</sup> " + markdown_escaped(table.notes[n]) + "\n";
   }
   return text + "\n";
 }
@@ -90,25 +91,26 @@ std::string table_text(const ReportTable& table) {
 
 std::string markdown_of(const BenchmarkResults& results, const ReportTables& tables,
                         const std::vector<ReportFigure>& figures) {
-  std::string text = "# Benchmark " + escaped(results.suite) + "\n\n";
+  std::string text = "# Benchmark " + markdown_escaped(results.suite) + "\n\n";
   const std::string warning = stand_in_warning(results);
-  if (!warning.empty()) text += "> **" + label_of(results) + "**: " + escaped(warning) + "\n\n";
+  if (!warning.empty()) text += "> **" + label_of(results) + "**: " + markdown_escaped(warning) + "\n\n";
   for (const ReportFact& fact : report_facts(results)) {
-    text += "- " + escaped(fact.name) + ": " + escaped(fact.text) + "\n";
+    text += "- " + markdown_escaped(fact.name) + ": " + markdown_escaped(fact.text) + "\n";
   }
   text += "\n## Tables\n\n";
-  for (const ReportTable& table : tables.accuracy) text += table_text(table);
+  for (const ReportTable& table : tables.accuracy) text += markdown_table(table);
   if (!figures.empty()) text += "## Figures\n\n";
   for (const ReportFigure& figure : figures) {
-    text += "### " + escaped(figure.title) + "\n\n";
+    text += "### " + markdown_escaped(figure.title) + "\n\n";
     if (!figure.missing.empty()) {
-      text += "Left out: " + escaped(figure.missing) + "\n\n";
+      text += "Left out: " + markdown_escaped(figure.missing) + "\n\n";
       continue;
     }
-    text += "![" + escaped(figure.title) + "](" + figure.file + ")\n\n" + escaped(figure.caption) + "\n\n";
+    text += "![" + markdown_escaped(figure.title) + "](" + figure.file + ")\n\n" + markdown_escaped(figure.caption) +
+            "\n\n";
   }
   text += "## Speed\n\n";
-  for (const ReportTable& table : tables.speed) text += table_text(table);
+  for (const ReportTable& table : tables.speed) text += markdown_table(table);
   return text;
 }
 

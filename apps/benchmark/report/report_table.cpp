@@ -6,8 +6,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <set>
+
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat::apps {
 
@@ -39,10 +40,7 @@ ReportTables make_report_tables(const BenchmarkResults& results) {
 std::string label_of(const BenchmarkResults& results) { return results.stand_in ? "stand-in" : ""; }
 
 std::string fixed_text(double value, int decimals) {
-  if (!std::isfinite(value)) return "-";
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
+  return std::isfinite(value) ? formatted("%.*f", decimals, value) : "-";
 }
 
 std::string exact_text(double value) {

@@ -7,7 +7,7 @@
 namespace odosplat::apps {
 namespace {
 
-std::string escaped(const std::string& text) {
+std::string tex_escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
@@ -63,12 +63,12 @@ std::string one_line(std::string text) {
   return text;
 }
 
-std::string cell_text(const ReportCell& cell) {
-  std::string text = cell.failed ? "$\\times$" : escaped(cell.text);
+std::string tex_cell(const ReportCell& cell) {
+  std::string text = cell.failed ? "$\\times$" : tex_escaped(cell.text);
   if (cell.mark == RankMark::best) text = "\\textbf{" + text + "}";
   if (cell.mark == RankMark::second) text = "\\uline{" + text + "}";
   if (cell.note > 0) text += "$^{" + std::to_string(cell.note) + "}$";
-  if (!cell.spread.empty()) text = "\\shortstack{" + text + "\\\\{\\tiny " + escaped(cell.spread) + "}}";
+  if (!cell.spread.empty()) text = "\\shortstack{" + text + "\\\\{\\tiny " + tex_escaped(cell.spread) + "}}";
   return text;
 }
 
@@ -88,7 +88,7 @@ std::string group_heads(const ReportTable& table, std::size_t names) {
     std::size_t end = begin;
     while (end < table.columns.size() && table.columns[end].group == table.columns[begin].group) ++end;
     const std::string& group = table.columns[begin].group;
-    heads += " & \\multicolumn{" + std::to_string(end - begin) + "}{c}{" + escaped(group) + "}";
+    heads += " & \\multicolumn{" + std::to_string(end - begin) + "}{c}{" + tex_escaped(group) + "}";
     if (!group.empty()) {
       rules += "\\cmidrule(lr){" + std::to_string(names + begin + 1) + "-" + std::to_string(names + end) + "}";
     }
@@ -97,28 +97,28 @@ std::string group_heads(const ReportTable& table, std::size_t names) {
   return heads + " \\\\\n" + rules + "\n";
 }
 
-std::string table_text(const ReportTable& table) {
+std::string tex_table(const ReportTable& table) {
   const std::size_t names = table.method_head.empty() ? 1 : 2;
   std::string columns(names, 'l');
   for (const ReportColumn& column : table.columns) columns += column.words ? 'l' : 'r';
   std::string text = "\\begin{table*}\n\\centering\n" + letters_for(columns.size()) + "\n";
-  text += "\\caption{" + escaped(table.labelled_title()) + "." + (table.caption.empty() ? "" : " ") +
-          escaped(table.caption) + "}\n\\label{tab:" + table.key + "}\n";
+  text += "\\caption{" + tex_escaped(table.labelled_title()) + "." + (table.caption.empty() ? "" : " ") +
+          tex_escaped(table.caption) + "}\n\\label{tab:" + table.key + "}\n";
   text += "\\begin{tabular}{" + columns + "}\n\\toprule\n";
   if (table.has_groups()) text += group_heads(table, names);
-  text += escaped(table.row_head);
-  if (names == 2) text += " & " + escaped(table.method_head);
-  for (const ReportColumn& column : table.columns) text += " & " + escaped(column.head);
+  text += tex_escaped(table.row_head);
+  if (names == 2) text += " & " + tex_escaped(table.method_head);
+  for (const ReportColumn& column : table.columns) text += " & " + tex_escaped(column.head);
   text += " \\\\\n\\midrule\n";
   for (const ReportRow& row : table.rows) {
-    text += escaped(row.name);
-    if (names == 2) text += " & " + escaped(row.method);
-    for (const ReportCell& cell : row.cells) text += " & " + cell_text(cell);
+    text += tex_escaped(row.name);
+    if (names == 2) text += " & " + tex_escaped(row.method);
+    for (const ReportCell& cell : row.cells) text += " & " + tex_cell(cell);
     text += " \\\\\n";
   }
   text += "\\bottomrule\n\\end{tabular}\n";
   for (std::size_t n = 0; n < table.notes.size(); ++n) {
-    text += "\\par\\footnotesize $^{" + std::to_string(n + 1) + "}$ " + escaped(table.notes[n]) + "\n";
+    text += "\\par\\footnotesize $^{" + std::to_string(n + 1) + "}$ " + tex_escaped(table.notes[n]) + "\n";
   }
   return text + "\\end{table*}\n";
 }
@@ -149,13 +149,13 @@ bool too_wide(const ReportTable& table) {
 
 /// With spreads, the groups are too wide to stand side by side: then each group becomes a table of its own.
 std::string table_or_parts(const ReportTable& table) {
-  if (!too_wide(table)) return table_text(table);
+  if (!too_wide(table)) return tex_table(table);
   std::string text;
   std::vector<std::string> groups;
   for (const ReportColumn& column : table.columns) {
     if (std::ranges::find(groups, column.group) != groups.end()) continue;
     groups.push_back(column.group);
-    text += (text.empty() ? "" : "\n") + table_text(part_of(table, column.group, groups.size()));
+    text += (text.empty() ? "" : "\n") + tex_table(part_of(table, column.group, groups.size()));
   }
   return text;
 }

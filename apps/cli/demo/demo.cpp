@@ -2,7 +2,6 @@
 // Copyright 2026 The odosplat authors
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "apps/cli/demo/demo_world.hpp"
@@ -12,6 +11,7 @@
 #include "apps/command/number_flags.hpp"
 #include "apps/command/output.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/eval/evaluate.hpp"
@@ -54,18 +54,13 @@ Row run_method(const Common& common, const std::string& out, const DemoWorld& wo
 }
 
 std::string table_of(const std::vector<Row>& rows) {
-  std::string text;
-  char line[256];
-  std::snprintf(line, sizeof(line), "%-15s %9s %9s %9s %9s %9s %13s %13s\n", "depth from", "posed", "ATE [mm]",
-                "max [mm]", "RTE [mm]", "RRE [deg]", "depth median", "depth 90 %");
-  text += line;
+  std::string text = formatted("%-15s %9s %9s %9s %9s %9s %13s %13s\n", "depth from", "posed", "ATE [mm]", "max [mm]",
+                               "RTE [mm]", "RRE [deg]", "depth median", "depth 90 %");
   for (const Row& r : rows) {
-    char posed[32];
-    std::snprintf(posed, sizeof(posed), "%d/%d", r.track.posed, r.track.frames);
-    std::snprintf(line, sizeof(line), "%-15s %9s %9.2f %9.2f %9.2f %9.4f %10.2f mm %10.2f mm\n", r.method.c_str(),
-                  posed, 1000.0 * r.result.ate_m.rmse, 1000.0 * r.result.ate_m.max, 1000.0 * r.result.rte_m.rmse,
-                  r.result.rre_deg.rmse, 1000.0 * r.depth.all.median_abs_m, 1000.0 * r.depth.all.p90_m);
-    text += line;
+    const std::string posed = formatted("%d/%d", r.track.posed, r.track.frames);
+    text += formatted("%-15s %9s %9.2f %9.2f %9.2f %9.4f %10.2f mm %10.2f mm\n", r.method.c_str(), posed.c_str(),
+                      1000.0 * r.result.ate_m.rmse, 1000.0 * r.result.ate_m.max, 1000.0 * r.result.rte_m.rmse,
+                      r.result.rre_deg.rmse, 1000.0 * r.depth.all.median_abs_m, 1000.0 * r.depth.all.p90_m);
   }
   return text;
 }
@@ -86,10 +81,8 @@ void draw_trajectory_picture(const std::string& out, const DemoWorld& world, con
   figure.estimate = row.track.trajectory;
   figure.truth = world.truth;
   figure.up = Eigen::Vector3d::UnitZ();
-  char title[120];
-  std::snprintf(title, sizeof(title), "ATE RMSE %.1f mm, max %.1f mm", 1000.0 * row.result.ate_m.rmse,
-                1000.0 * row.result.ate_m.max);
-  figure.title = title;
+  figure.title =
+      formatted("ATE RMSE %.1f mm, max %.1f mm", 1000.0 * row.result.ate_m.rmse, 1000.0 * row.result.ate_m.max);
   write_rgb8(out + "/trajectory.png", draw_trajectory(figure));
 }
 
@@ -151,10 +144,8 @@ void run(const Common& common, const std::string& out, const DemoOptions& option
   draw_error_picture(out, rows);
 
   std::string text = table_of(rows) + "(each anchored in the colours of its map: --anchor on)\n";
-  char line[200];
-  std::snprintf(line, sizeof(line), "map: %zu Gaussians, %d iterations at %.1f it/s, PSNR %.2f dB on unseen views\n",
-                report.gaussians, report.iterations, report.iterations_per_second, rows[0].depth.psnr_db);
-  text += line;
+  text += formatted("map: %zu Gaussians, %d iterations at %.1f it/s, PSNR %.2f dB on unseen views\n", report.gaussians,
+                    report.iterations, report.iterations_per_second, rows[0].depth.psnr_db);
   write_file_atomically(out + "/table.txt", text);
   print("%s", text.c_str());
   print("%s: map.png, trajectory.png, compare.png, errors.png, table.txt after %s\n", out.c_str(),

@@ -15,10 +15,7 @@ PoseByCamera CameraWatch::add(const GrayImage& image, const SE3& T_world_camera)
 
 std::string CameraWatch::fault_of(const PoseByCamera& pose) const {
   if (!pose.determined) return likely_cause();
-  const MisfitEffect effect = misfit_.effect(pose, camera_);
-  const bool stands = !effect.significant() || (effect.meters <= options_.max_misfit_translation &&
-                                                effect.radians <= options_.max_misfit_rotation);
-  return stands ? "" : likely_cause();
+  return options_.allows(misfit_.effect(pose, camera_)) ? "" : likely_cause();
 }
 
 }  // namespace odosplat::apps

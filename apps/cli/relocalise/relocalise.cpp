@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 
 #include "apps/cli/relocalise/camera_watch.hpp"
@@ -133,7 +134,7 @@ void judge(std::vector<Row>& rows, const CameraWatch& watch_camera, const Sequen
     if (!truth) continue;
     const SE3 difference = truth->inverse() * row.answer.T_world_camera;
     row.error_m = difference.translation().norm();
-    row.error_deg = difference.angle() * 180.0 / 3.14159265358979323846;
+    row.error_deg = difference.angle() * 180.0 / std::numbers::pi;
   }
 }
 

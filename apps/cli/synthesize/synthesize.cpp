@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -11,6 +10,7 @@
 #include "apps/command/support.hpp"
 #include "odosplat/cloud/cloud_filters.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/cloud/cloud_file.hpp"
@@ -71,14 +71,12 @@ SyntheticCamera camera_of(const SynthesizeFlags& flags, const SensorCharacter& c
 /// All settings that the frames depend on.
 std::string settings_text(const SynthesizeFlags& flags, const SyntheticCamera& camera) {
   const bool built_in = flags.scene.find_first_of("./") == std::string::npos;
-  char text[400];
-  std::snprintf(text, sizeof(text),
-                "odosplat %s\nwalk %s\nsize %s\nseed %llu\nnoise %.9g\nexposure_swing %.9g\nshutter_s %.9g\n"
-                "readout_s %.9g\nkinect %d\n",
-                ODOSPLAT_VERSION, flags.walk.c_str(), flags.size.c_str(), static_cast<unsigned long long>(flags.seed),
-                camera.color.read_noise, camera.color.exposure_swing, camera.shutter.shutter_s,
-                camera.shutter.readout_s, camera.kinect ? 1 : 0);
-  return text + std::string("scene:\n") +
+  return formatted(
+             "odosplat %s\nwalk %s\nsize %s\nseed %llu\nnoise %.9g\nexposure_swing %.9g\nshutter_s %.9g\n"
+             "readout_s %.9g\nkinect %d\nscene:\n",
+             ODOSPLAT_VERSION, flags.walk.c_str(), flags.size.c_str(), static_cast<unsigned long long>(flags.seed),
+             camera.color.read_noise, camera.color.exposure_swing, camera.shutter.shutter_s, camera.shutter.readout_s,
+             camera.kinect ? 1 : 0) +
          (built_in ? std::string(built_in_scene_text(flags.scene)) : read_file(flags.scene));
 }
 
@@ -104,11 +102,10 @@ void write_sequence(const SynthesizeFlags& flags, const SceneDescription& descri
     const Scene& world = scene();
     const Clearance nearest = clearance(world, whole);
     if (nearest.distance < least_clearance) {
-      char fault[160];
       const Eigen::Vector3d& eye = whole[nearest.frame].T_world_camera.translation();
-      std::snprintf(fault, sizeof(fault), "comes to %.2f m of something at frame %zu, (%.2f, %.2f, %.2f): needs %.2f m",
-                    nearest.distance, nearest.frame, eye.x(), eye.y(), eye.z(), least_clearance);
-      throw InputError(description.name, "walk " + flags.walk, fault);
+      throw InputError(description.name, "walk " + flags.walk,
+                       formatted("comes to %.2f m of something at frame %zu, (%.2f, %.2f, %.2f): needs %.2f m",
+                                 nearest.distance, nearest.frame, eye.x(), eye.y(), eye.z(), least_clearance));
     }
     return world;
   };

@@ -3,13 +3,13 @@
 #include "apps/cli/synthesize/synthesize_sequence.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <vector>
 
 #include "apps/command/interrupt.hpp"
 #include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -22,11 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string file_of(const char* kind, std::size_t frame) {
-  char name[48];
-  std::snprintf(name, sizeof(name), "%s/%06zu.png", kind, frame);
-  return name;
-}
+std::string file_of(const char* kind, std::size_t frame) { return formatted("%s/%06zu.png", kind, frame); }
 
 MadeFolders claim_folder(const SyntheticSequence& sequence) {
   MadeFolders made = ensure_output_folder(sequence.folder);

@@ -3,11 +3,11 @@
 #include "apps/cli/track/playback.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <thread>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/upper_median.hpp"
 
@@ -22,13 +22,10 @@ void refuse_other_units(const Sequence& sequence, std::vector<double> gaps) {
   if (gaps.empty()) return;
   const double usual = upper_median(std::move(gaps));
   if (usual <= longest_median) return;
-  char fault[160];
-  std::snprintf(fault, sizeof(fault),
-                "its images are %.6g s apart by their stamps: --realtime takes seconds, are they %s?", usual,
-                usual > 1e6   ? "nanoseconds"
-                : usual > 1e3 ? "microseconds"
-                              : "milliseconds");
-  throw InputError(sequence.name(), fault);
+  const char* const unit = usual > 1e6 ? "nanoseconds" : usual > 1e3 ? "microseconds" : "milliseconds";
+  throw InputError(
+      sequence.name(),
+      formatted("its images are %.6g s apart by their stamps: --realtime takes seconds, are they %s?", usual, unit));
 }
 
 }  // namespace

@@ -3,10 +3,10 @@
 #include "apps/cli/track/track_record.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "apps/command/json_text.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/eval/statistics.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -124,17 +124,14 @@ std::string TrackRecord::status_table(const std::vector<double>& keyframe_times)
   std::string table = "time,status,keyframe,inlier_share,milliseconds,map_share,in_map,confirmed,reason\n";
   for (const Row& row : rows_) {
     const bool keyframe = std::binary_search(keyframe_times.begin(), keyframe_times.end(), row.time);
-    char line[160];
-    std::snprintf(line, sizeof(line), ",%s,%d,%.4f,%.3f,%.4f,%d,", to_string(row.result.status).c_str(),
-                  keyframe ? 1 : 0, row.result.inlier_share, row.result.milliseconds, row.result.map_share,
-                  row.result.in_map ? 1 : 0);
-    char confirmed[16] = ",";
-    if (row.result.evidence.verdict != Confirmation::none) {
-      std::snprintf(confirmed, sizeof(confirmed), "%.4f,", row.result.evidence.probability);
-    }
+    const bool judged = row.result.evidence.verdict != Confirmation::none;
     const bool unexplained = row.result.status == TrackStatus::lost && row.reason.empty();
     table +=
-        row.stamp + line + confirmed + csv_field(unexplained ? reason_lost(row.result.evidence) : row.reason) + "\n";
+        row.stamp +
+        formatted(",%s,%d,%.4f,%.3f,%.4f,%d,", to_string(row.result.status).c_str(), keyframe ? 1 : 0,
+                  row.result.inlier_share, row.result.milliseconds, row.result.map_share, row.result.in_map ? 1 : 0) +
+        (judged ? formatted("%.4f,", row.result.evidence.probability) : ",") +
+        csv_field(unexplained ? reason_lost(row.result.evidence) : row.reason) + "\n";
   }
   return table;
 }
@@ -152,11 +149,7 @@ std::string TrackRecord::covariance_table() const {
     if (row.result.status == TrackStatus::lost) continue;
     table += row.stamp;
     for (int i = 0; i < 6; ++i) {
-      for (int j = i; j < 6; ++j) {
-        char value[32];
-        std::snprintf(value, sizeof(value), ",%.6e", row.result.covariance(i, j));
-        table += value;
-      }
+      for (int j = i; j < 6; ++j) table += formatted(",%.6e", row.result.covariance(i, j));
     }
     table += "\n";
   }

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -19,6 +18,7 @@
 #include "apps/input/cloud_files.hpp"
 #include "apps/input/training_frames.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -55,12 +55,9 @@ InitializeOptions initialize_options(const TrainJob& job) {
 std::string progress_text(const TrainingStep& step, const TrainingReport& report) {
   // The report's mean over images: the PSNR of a single image depends on its brightness. 0: no image has been seen at
   // full size yet.
-  char psnr[24] = "-";
-  if (report.psnr_db > 0.0) std::snprintf(psnr, sizeof(psnr), "%.2f dB", report.psnr_db);
-  char text[160];
-  std::snprintf(text, sizeof(text), "loss %.4f  PSNR %s  %zu Gaussians  %.1f it/s", step.value.loss, psnr,
-                report.gaussians, report.iterations_per_second);
-  return text;
+  const std::string psnr = report.psnr_db > 0.0 ? formatted("%.2f dB", report.psnr_db) : "-";
+  return formatted("loss %.4f  PSNR %s  %zu Gaussians  %.1f it/s", step.value.loss, psnr.c_str(), report.gaussians,
+                   report.iterations_per_second);
 }
 
 std::string checkpoint_file(const TrainJob& job) { return job.out + ".checkpoint"; }
@@ -193,11 +190,10 @@ TrainingStart prepare(const TrainJob& job, const InitializeOptions& initial, Seq
   TrainingStart prepared = prepare_training(read_cloud(job.cloud, job.voxel, job.remove_outliers), job.cloud, initial,
                                             views, [&stages](const std::string& name) { stages.next(name); });
   if (prepared.doubt) {
-    char shares[96];
-    std::snprintf(shares, sizeof(shares), " (%.0f %% of the variance is left unexplained, instead of %.0f %%)",
-                  100.0 * prepared.doubt->as_given, 100.0 * prepared.doubt->instead);
     log_warning("the images disagree on the colours of the cloud's points: likely cause: " +
-                prepared.doubt->hypothesis.words() + shares);
+                prepared.doubt->hypothesis.words() +
+                formatted(" (%.0f %% of the variance is left unexplained, instead of %.0f %%)",
+                          100.0 * prepared.doubt->as_given, 100.0 * prepared.doubt->instead));
   }
   return prepared;
 }

@@ -2,7 +2,6 @@
 // Copyright 2026 The odosplat authors
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "apps/input/sequence_flags.hpp"
 #include "apps/input/truth.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/near_origin.hpp"
 #include "odosplat/eval/evaluate.hpp"
@@ -60,10 +60,7 @@ struct TrajectoryViewFlags {
 std::string error_title(const Trajectory& estimate, const Trajectory& truth) {
   const EvalResult result = evaluate(estimate, truth, {});
   if (!result.doubt.empty()) log_warning("only " + result.doubt);
-  char text[120];
-  std::snprintf(text, sizeof(text), "ATE RMSE %.1f mm, max %.1f mm", 1000.0 * result.ate_m.rmse,
-                1000.0 * result.ate_m.max);
-  return text;
+  return formatted("ATE RMSE %.1f mm, max %.1f mm", 1000.0 * result.ate_m.rmse, 1000.0 * result.ate_m.max);
 }
 
 void run_trajectory(const TrajectoryViewFlags& flags) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -11,6 +10,7 @@
 #include "apps/command/output.hpp"
 #include "apps/input/map_views.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/near_origin.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/io/camera/camera_file.hpp"
@@ -69,8 +69,7 @@ void run(const Common& common, const FlyFlags& flags) {
     if (interrupted()) throw Interrupted();
     const StampedPose& pose = poses[k * step];
     ViewImages images = opened.view->render(camera, pose.T_world_camera, request);
-    char words[64];
-    std::snprintf(words, sizeof(words), "%.2f s", pose.time - poses.front().time);
+    const std::string words = formatted("%.2f s", pose.time - poses.front().time);
     const cv::Mat3b frame = draw_fly_frame({std::move(images.color), std::move(images.depth), range, words});
     if (!video) video.emplace(flags.out, frame.size(), flags.fps);
     video->write(frame);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "odosplat/core/error.hpp"
-#include "odosplat/core/number_text.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 namespace {

@@ -6,11 +6,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "odosplat/cloud/local_planes.hpp"
 #include "odosplat/cloud/neighbor_search.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/core/upper_median.hpp"
 
@@ -222,22 +222,18 @@ class Aligner {
   }
 
   std::string fault_of(const Similarity& guess, const Sim3IcpResult& r) const {
-    char text[200] = "";
     if (ran_away(guess, r.cloud_from_points)) {
-      std::snprintf(text, sizeof(text), "the scale runs away from %g to %g or beyond", guess.scale,
-                    r.cloud_from_points.scale);
-    } else if (!(r.inlier_share >= options_.min_inliers) || r.inliers < static_cast<int>(fewest_points)) {
-      std::snprintf(text, sizeof(text),
-                    "only %.1f %% of %d points come to lie within %g m of the cloud, needed are %.0f %%",
-                    100.0 * r.inlier_share, r.points, options_.inlier, 100.0 * options_.min_inliers);
-    } else if (!(r.weakest >= open_below)) {
-      std::snprintf(text, sizeof(text),
-                    "the surfaces do not determine a direction, a rotation or the scale (%.4f < %.4f)", r.weakest,
-                    open_below);
-    } else if (!r.converged) {
-      std::snprintf(text, sizeof(text), "not converged after %d iterations", r.iterations);
+      return formatted("the scale runs away from %g to %g or beyond", guess.scale, r.cloud_from_points.scale);
     }
-    return text;
+    if (!(r.inlier_share >= options_.min_inliers) || r.inliers < static_cast<int>(fewest_points)) {
+      return formatted("only %.1f %% of %d points come to lie within %g m of the cloud, needed are %.0f %%",
+                       100.0 * r.inlier_share, r.points, options_.inlier, 100.0 * options_.min_inliers);
+    }
+    if (!(r.weakest >= open_below)) {
+      return formatted("the surfaces do not determine a direction, a rotation or the scale (%.4f < %.4f)", r.weakest,
+                       open_below);
+    }
+    return r.converged ? "" : formatted("not converged after %d iterations", r.iterations);
   }
 
   Sim3IcpOptions options_;

@@ -4,10 +4,10 @@
 
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 
@@ -32,10 +32,8 @@ VoxelGrid::Cell* VoxelGrid::at(const Eigen::Vector3d& point) {
   if (!point.allFinite()) return nullptr;
   const Eigen::Vector3d p = point / voxel_;
   if (!p.allFinite()) {
-    char fault[96];
-    std::snprintf(fault, sizeof(fault), "is too small: %.3g m for a point at %.3g %.3g %.3g", voxel_, point.x(),
-                  point.y(), point.z());
-    throw InputError("voxel", fault);
+    throw InputError("voxel", formatted("is too small: %.3g m for a point at %.3g %.3g %.3g", voxel_, point.x(),
+                                        point.y(), point.z()));
   }
   // Adding 0.0 turns -0.0 into +0.0: the two are equal but have different bits, and so different hashes.
   const Key key{std::floor(p.x()) + 0.0, std::floor(p.y()) + 0.0, std::floor(p.z()) + 0.0};

@@ -4,9 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <string>
 #include <string_view>
+
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 
@@ -23,11 +24,7 @@ class Checksum {
   void add(const void* data, std::size_t size) { add({static_cast<const char*>(data), size}); }
   std::uint64_t value() const { return value_; }
   /// 16 hexadecimal digits.
-  std::string text() const {
-    char digits[17];
-    std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(value_));
-    return digits;
-  }
+  std::string text() const { return formatted("%016llx", static_cast<unsigned long long>(value_)); }
 
  private:
   std::uint64_t value_ = 14695981039346656037ULL;

@@ -2,9 +2,8 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/core/cloud_batch.hpp"
 
-#include <cstdio>
-
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 
@@ -13,12 +12,10 @@ Eigen::Vector3f round_point(const std::string& name, const Eigen::Vector3d& poin
   Eigen::Vector3f rounded = point.cast<float>();
   const double error = (rounded.cast<double>() - point).cwiseAbs().maxCoeff();
   if (error <= max_error) return rounded;
-  char fault[240];
-  std::snprintf(fault, sizeof(fault),
-                "is too far from the origin: a point at %.6g %.6g %.6g would move by %.3g m in single precision; shift "
-                "it with `odosplat cloud --from FILE --origin X Y Z`",
-                point.x(), point.y(), point.z(), error);
-  throw InputError(name, fault);
+  throw InputError(
+      name, formatted("is too far from the origin: a point at %.6g %.6g %.6g would move by %.3g m in single precision; "
+                      "shift it with `odosplat cloud --from FILE --origin X Y Z`",
+                      point.x(), point.y(), point.z(), error));
 }
 
 }  // namespace odosplat

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 namespace {
@@ -46,13 +46,12 @@ void require_near_origin(const std::string& name, const std::vector<Eigen::Vecto
   if (0.5 * step <= harmful_m || 0.5 * step <= harmful_share * spread) return;
   // Rounded to whole kilometres: short to type, and the remaining median coordinates are below 1 km.
   const Eigen::Vector3d origin = (median / 1000.0).array().round() * 1000.0;
-  char fault[320];
-  std::snprintf(fault, sizeof(fault),
-                "is too far from the origin: around %.7g %.7g %.7g single precision goes by steps of %.2g m; take an "
-                "origin such as %.9g %.9g %.9g off the poses, and the same off the cloud (`odosplat cloud --from FILE "
-                "--origin X Y Z`)",
-                median.x(), median.y(), median.z(), step, origin.x(), origin.y(), origin.z());
-  throw InputError(name, fault);
+  throw InputError(
+      name,
+      formatted("is too far from the origin: around %.7g %.7g %.7g single precision goes by steps of %.2g m; take "
+                "an origin such as %.9g %.9g %.9g off the poses, and the same off the cloud (`odosplat cloud "
+                "--from FILE --origin X Y Z`)",
+                median.x(), median.y(), median.z(), step, origin.x(), origin.y(), origin.z()));
 }
 
 void require_near_origin(const std::string& name, const Trajectory& poses) {

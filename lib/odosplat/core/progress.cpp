@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/terminal_text.hpp"
 
@@ -16,13 +17,8 @@ namespace odosplat {
 
 std::string format_duration(double seconds) {
   const long s = std::isfinite(seconds) ? std::lround(std::max(0.0, seconds)) : 0;
-  char text[64];
-  if (s >= 3600) {
-    std::snprintf(text, sizeof(text), "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
-  } else {
-    std::snprintf(text, sizeof(text), "%ld:%02ld", s / 60, s % 60);
-  }
-  return text;
+  if (s >= 3600) return formatted("%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+  return formatted("%ld:%02ld", s / 60, s % 60);
 }
 
 std::optional<double> TimeLeft::update(long done, double now) {

@@ -3,9 +3,9 @@
 #include "odosplat/core/se3.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 namespace {
@@ -32,9 +32,7 @@ Eigen::Quaterniond rotation_from_text(const Eigen::Quaterniond& q) {
   // Not Eigen's norm(), which squares the values and would overflow for those beyond 1e150.
   const double length = q.coeffs().stableNorm();
   if (!(length >= 0.5 && length <= 2.0)) {
-    char fault[80];
-    std::snprintf(fault, sizeof(fault), "the quaternion has length %.3g, must be near 1 (0.5..2)", length);
-    throw InputError(fault);
+    throw InputError(formatted("the quaternion has length %.3g, must be near 1 (0.5..2)", length));
   }
   return q.normalized();
 }

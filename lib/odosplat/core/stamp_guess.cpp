@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include "odosplat/core/stamp_guess.hpp"
-#include "odosplat/core/upper_median.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
 #include <utility>
+
+#include "odosplat/core/formatted.hpp"
+#include "odosplat/core/upper_median.hpp"
 
 namespace odosplat {
 namespace {
@@ -74,11 +75,7 @@ bool are_frame_numbers(const std::vector<double>& times) {
          std::all_of(times.begin(), times.end(), [](double t) { return t == std::floor(t) && std::abs(t) < 1e8; });
 }
 
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof(text), std::abs(value) < 1e7 ? "%.3f" : "%.0f", value);
-  return text;
-}
+std::string number(double value) { return formatted(std::abs(value) < 1e7 ? "%.3f" : "%.0f", value); }
 
 std::string look_like(const std::string& name, const char* unit) {
   return "the stamps of " + name + " look like " + unit;

@@ -2,10 +2,10 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/se3.hpp"
 
 namespace odosplat {
@@ -17,12 +17,7 @@ struct StampedPose {
   SE3 T_world_camera;
   std::string time_text;
 
-  std::string stamp() const {
-    if (!time_text.empty()) return time_text;
-    char text[64];
-    std::snprintf(text, sizeof(text), "%.6f", time);
-    return text;
-  }
+  std::string stamp() const { return time_text.empty() ? formatted("%.6f", time) : time_text; }
 };
 
 /// Poses in ascending order of time.

@@ -4,26 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
+
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 namespace {
 
-std::string format(const char* pattern, double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), pattern, value);
-  return text;
+std::string millimetres(double metres) {
+  return std::isfinite(metres) ? formatted("%.1f mm", 1000.0 * metres) : "none";
 }
 
-std::string millimetres(double metres) { return std::isfinite(metres) ? format("%.1f mm", 1000.0 * metres) : "none"; }
-
-std::string fy_text(const Convention& c, const Camera& camera) { return format("%+.1f", c.fy_sign * camera.fy); }
+std::string fy_text(const Convention& c, const Camera& camera) { return formatted("%+.1f", c.fy_sign * camera.fy); }
 std::string poses_text(const Convention& c, const Camera& /*camera*/) { return c.inverted ? "inverted" : "as stored"; }
 std::string shift_text(const Convention& c, const Camera& /*camera*/) {
-  return c.id_shift == 0 ? "0" : format("%+.0f", c.id_shift);
+  return c.id_shift == 0 ? "0" : formatted("%+d", c.id_shift);
 }
-std::string scale_text(const Convention& c, const Camera& /*camera*/) { return format("%g", c.depth_scale); }
+std::string scale_text(const Convention& c, const Camera& /*camera*/) { return formatted("%g", c.depth_scale); }
 
 struct Part {
   const char* name;
@@ -52,7 +49,7 @@ std::string row_text(const Part& part, const ConventionRow& row, const Conventio
     if (&other == &part || other.same(row.convention, declared)) continue;
     text += std::string(" with ") + other.name + " " + other.text(row.convention, camera);
   }
-  return text + (row.tried ? format(" errs by %.3g %% of the depth", 100.0 * row.relative_error)
+  return text + (row.tried ? formatted(" errs by %.3g %% of the depth", 100.0 * row.relative_error)
                            : std::string(" cannot be tried without more poses"));
 }
 
@@ -70,7 +67,7 @@ std::string difference_text(const Part& part, const Convention& winner, const Co
   std::string text = std::string(part.name) + ": the data want " + part.text(winner, camera) + ", the file says " +
                      part.text(declared, camera);
   if (&part == &parts[3]) {
-    text += " (depths are read " + format("%.4g", winner.depth_scale / declared.depth_scale) + " times too large)";
+    text += " (depths are read " + formatted("%.4g", winner.depth_scale / declared.depth_scale) + " times too large)";
   }
   if (&part == &parts[0]) {
     text += " (or reflect the poses: F T F with F = diag(1, -1, 1))";
@@ -126,9 +123,8 @@ void judge_conventions(ConventionReport& report, const Camera& camera, double ma
   report.as_declared = report.believable && report.winner == report.declared;
   if (!report.believable) {
     report.verdict = "no convention fits: the best errs by " + millimetres(winner->error_m) + ", " +
-                     format("%.1f %% of the depth", 100.0 * winner->relative_error) +
-                     format(" (%.0f %% of the pixels overlap", 100.0 * winner->overlap) +
-                     format(" at a gap of %.0f frames)", report.gap);
+                     formatted("%.1f %% of the depth (%.0f %% of the pixels overlap at a gap of %d frames)",
+                               100.0 * winner->relative_error, 100.0 * winner->overlap, report.gap);
   } else if (report.as_declared) {
     report.verdict = "the data agree with what is declared, to " + millimetres(winner->error_m) + open;
   } else {
@@ -150,15 +146,12 @@ std::string convention_table(const ConventionReport& report, const Camera& camer
     const bool is_declared = row.convention == report.declared;
     const bool is_winner = row.convention == report.winner;
     if (i >= max_rows && !is_declared && !is_winner) continue;
-    char line[160];
     const bool measured = std::isfinite(row.relative_error);
-    std::snprintf(line, sizeof(line), "%c%c %8s  %-9s  %8s  %11s  %9s  %8s  %9.1f\n", is_winner ? '*' : ' ',
-                  is_declared ? 'd' : ' ', fy_text(row.convention, camera).c_str(),
-                  poses_text(row.convention, camera).c_str(), shift_text(row.convention, camera).c_str(),
-                  scale_text(row.convention, camera).c_str(),
-                  measured ? format("%.2f", 1000.0 * row.error_m).c_str() : "-",
-                  measured ? format("%.3f", 100.0 * row.relative_error).c_str() : "-", 100.0 * row.overlap);
-    table += line;
+    table += formatted("%c%c %8s  %-9s  %8s  %11s  %9s  %8s  %9.1f\n", is_winner ? '*' : ' ', is_declared ? 'd' : ' ',
+                       fy_text(row.convention, camera).c_str(), poses_text(row.convention, camera).c_str(),
+                       shift_text(row.convention, camera).c_str(), scale_text(row.convention, camera).c_str(),
+                       measured ? formatted("%.2f", 1000.0 * row.error_m).c_str() : "-",
+                       measured ? formatted("%.3f", 100.0 * row.relative_error).c_str() : "-", 100.0 * row.overlap);
   }
   return table;
 }

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
 #include <string>
 
+#include "odosplat/core/angles.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/stamp_guess.hpp"
 
 namespace odosplat {
 namespace {
-
-constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
 Similarity find_alignment(const std::vector<SE3>& estimate, const std::vector<SE3>& truth,
                           TrajectoryAlignment alignment) {
@@ -67,12 +65,10 @@ EvalResult evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   result.alignment = options.alignment;
   const bool under_half = 2 * result.pairs < estimate.size();
   if (result.pairs == 0 || under_half) {
-    char within[32];
-    std::snprintf(within, sizeof(within), "%g s", options.max_time_difference);
     const std::string why = why_unmatched(estimate, truth, result, options.max_time_difference);
     result.doubt = std::to_string(result.pairs) + " of " + std::to_string(estimate.size()) +
                    " poses of the estimate match one of the truth in time (" + std::to_string(truth.size()) +
-                   ") within " + within + (why.empty() ? "" : "; " + why);
+                   ") within " + number_text(options.max_time_difference) + " s" + (why.empty() ? "" : "; " + why);
   }
   const bool alignable = options.alignment == TrajectoryAlignment::none || result.pairs >= 3;
   if (result.pairs == 0 || (under_half && !alignable)) throw NothingMatched("trajectories", result.doubt);

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/parallel.hpp"
 
 namespace odosplat {
@@ -303,23 +303,23 @@ RegistrationReport check_registration(const RegistrationInput& input, const Regi
   report.declared_contrast = declared.mean(0, -1);
   const double misfit = corner_misfit(found, camera);
   const double misfit_sigma = std::max(0.25, jackknife(misfits));
-  char text[320];
-  std::snprintf(text, sizeof(text),
-                "depth's edges are found in the colour images at %.3f +- %.3f times their distance from the principal "
-                "point, shifted by %.1f +- %.1f, %.1f +- %.1f px: %.1f px off in the corner",
-                report.scale, report.scale_sigma, report.shift_px.x(), report.shift_sigma_px.x(), report.shift_px.y(),
-                report.shift_sigma_px.y(), pixels_before * misfit);
+  const std::string text = formatted(
+      "depth's edges are found in the colour images at %.3f +- %.3f times their distance from the principal "
+      "point, shifted by %.1f +- %.1f, %.1f +- %.1f px: %.1f px off in the corner",
+      report.scale, report.scale_sigma, report.shift_px.x(), report.shift_sigma_px.x(), report.shift_px.y(),
+      report.shift_sigma_px.y(), pixels_before * misfit);
   if (report.contrast < least_contrast) {
     report.text = "colour and depth: not decidable, colour shows no edges where depth does";
-  } else if (misfit > options.clear * camera.width && misfit > options.sure * misfit_sigma) {
+  } else if (misfit > options.clear * camera.width && misfit > options.sure * misfit_sigma &&
+             report.declared_contrast - 1.0 < 0.5 * (report.contrast - 1.0)) {
     report.registered = false;
-    report.text = "colour and depth are not of one camera: " + std::string(text) +
+    report.text = "colour and depth are not of one camera: " + text +
                   " (another focal length, or depth that is not registered to colour: see depth_camera of camera.yaml)";
   } else if (misfit <= options.tolerance * camera.width) {
     report.registered = true;
-    report.text = "colour and depth are of one camera: " + std::string(text);
+    report.text = "colour and depth are of one camera: " + text;
   } else {
-    report.text = "colour and depth: not decidable whether they are from exactly the same camera, " + std::string(text);
+    report.text = "colour and depth: not decidable whether they are from exactly the same camera, " + text;
   }
   return report;
 }

@@ -53,7 +53,8 @@ struct RegistrationReport {
 /// its edges elsewhere. Edges are taken on the side of the nearer surface, also across holes of up to 8 pixels (a depth
 /// sensor's shadow). The result is
 ///   - not registered if the best placement differs from the declared one by more than `clear` at the image's corner
-///     and by more than `sure` sigmas;
+///     and by more than `sure` sigmas, and the edges are not found half as clearly where they are declared (few edges of
+///     one object can be found beside their place along a pattern);
 ///   - registered if it differs by less than the tolerance;
 ///   - undecided in between (the text then gives the apparent misfit, such as that of a slightly displaced or rotated
 ///     camera), with fewer than 2000 edges, or if the gradient at the edges is not at least 15 % above its

@@ -20,13 +20,15 @@
 #include <system_error>
 #include <utility>
 
+#include "odosplat/core/formatted.hpp"
+
 namespace odosplat {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::string_view mark = ".odosplat-";
-constexpr std::string_view ending = ".part";
+constexpr std::string_view part_ending = ".part";
 constexpr std::size_t digits = 16;
 
 [[noreturn]] void fail() { throw std::system_error(errno, std::generic_category()); }
@@ -34,15 +36,13 @@ constexpr std::size_t digits = 16;
 std::string random_digits() {
   std::uint64_t value = 0;
   if (getrandom(&value, sizeof(value), 0) != static_cast<ssize_t>(sizeof(value))) fail();
-  char text[digits + 1];
-  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(value));
-  return text;
+  return formatted("%016llx", static_cast<unsigned long long>(value));
 }
 
 // Shortens names so that the temporary name does not exceed NAME_MAX; their start is enough to recognise them.
 std::string stem_of(const std::string& name) {
   constexpr std::size_t longest_extension = 8;
-  constexpr std::size_t added = mark.size() + digits + ending.size() + longest_extension;
+  constexpr std::size_t added = mark.size() + digits + part_ending.size() + longest_extension;
   return name.substr(0, std::min<std::size_t>(name.size(), NAME_MAX - added));
 }
 
@@ -52,12 +52,12 @@ bool is_temporary_name(std::string_view entry, const std::string& stem) {
   const std::string_view output = entry.substr(0, at);
   if (!stem.empty() && output != stem && !output.starts_with(stem + ".")) return false;
   std::string_view rest = entry.substr(at + mark.size());
-  if (rest.size() < digits + ending.size()) return false;
+  if (rest.size() < digits + part_ending.size()) return false;
   const bool random = std::all_of(rest.begin(), rest.begin() + digits,
                                   [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
   rest.remove_prefix(digits);
-  if (!random || !rest.starts_with(ending)) return false;
-  rest.remove_prefix(ending.size());
+  if (!random || !rest.starts_with(part_ending)) return false;
+  rest.remove_prefix(part_ending.size());
   return rest.empty() || rest == ".mp4" || rest == ".avi";
 }
 
@@ -80,7 +80,7 @@ bool is_regular_of_this_user(const struct stat& status) {
 TemporaryFile::TemporaryFile(const std::string& path, mode_t mode, const std::string& extension) {
   const fs::path whole(path);
   const std::string start = (whole.parent_path() / stem_of(whole.filename().string())).string() + std::string(mark);
-  const std::string end = std::string(ending) + extension;
+  const std::string end = std::string(part_ending) + extension;
   while (true) {
     name_ = start + random_digits() + end;
     file_ = ::open(name_.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, mode);

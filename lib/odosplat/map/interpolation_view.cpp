@@ -6,33 +6,22 @@
 #include <cmath>
 #include <cstddef>
 
-#include "odosplat/cloud/cloud_filters.hpp"
 #include "odosplat/cloud/local_planes.hpp"
 #include "odosplat/cloud/projected_points.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/core/upper_median.hpp"
+#include "odosplat/map/view_cloud.hpp"
 
 namespace odosplat {
 namespace {
 
-constexpr int spacing_neighbors = 6;
 constexpr float max_spacing_medians = 4.0F;
 constexpr float border_spacings = 0.75F;   // how far a surface extends beyond its outermost points
 constexpr float fallback_spacings = 3.0F;  // largest depth difference between a fitted plane's point and a pixel on it
 constexpr float min_radius_px = 1.5F;
 constexpr float least_width = 0.1F;  // of a triangle: twice its area over the square of its longest side
 constexpr float max_weight = 2.0F;   // largest absolute weight of a point; more would extrapolate too far
-
-PointCloud finite_part(const PointCloud& cloud) {
-  PointCloud finite;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!cloud.points[i].allFinite()) continue;
-    finite.points.push_back(cloud.points[i]);
-    if (cloud.has_colors()) finite.colors.push_back(cloud.colors[i]);
-  }
-  return finite;
-}
 
 // The three points between which one pixel is interpolated.
 struct Triple {
@@ -220,7 +209,8 @@ void InterpolationOptions::check() const {
 InterpolationView::InterpolationView(const PointCloud& cloud, const InterpolationOptions& options)
     : options_((options.check(), options)), cloud_(finite_part(cloud)) {
   const std::vector<LocalPlane> planes = fit_local_planes(cloud_, options_.neighbors);
-  spacings_ = mean_neighbor_distances(cloud_, spacing_neighbors);
+  spacings_ = point_spacings(cloud_);
+  cloud_.normals.clear();  // those of the planes are used
   for (const LocalPlane& plane : planes) {
     cloud_.normals.push_back(plane.normal);
     residuals_.push_back(plane.residual);

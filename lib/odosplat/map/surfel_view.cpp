@@ -6,29 +6,17 @@
 #include <cmath>
 #include <cstddef>
 
-#include "odosplat/cloud/cloud_filters.hpp"
 #include "odosplat/cloud/local_planes.hpp"
 #include "odosplat/cloud/projected_points.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/core/upper_median.hpp"
+#include "odosplat/map/view_cloud.hpp"
 
 namespace odosplat {
 namespace {
 
-constexpr int spacing_neighbors = 6;
 constexpr int rows_a_band = 16;
-
-PointCloud finite_part(const PointCloud& cloud) {
-  PointCloud finite;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!cloud.points[i].allFinite()) continue;
-    finite.points.push_back(cloud.points[i]);
-    if (cloud.has_colors()) finite.colors.push_back(cloud.colors[i]);
-    if (cloud.has_normals()) finite.normals.push_back(cloud.normals[i]);
-  }
-  return finite;
-}
 
 // First and last column (x0, x1) and row (y0, y1) that a disc can touch; empty if last < first.
 struct Box {
@@ -175,8 +163,7 @@ SurfelView::SurfelView(const PointCloud& cloud, const SurfelOptions& options)
   }
   radius_ = options_.radius > 0.0
                 ? options_.radius
-                : options_.radius_spacings *
-                      static_cast<double>(upper_median(mean_neighbor_distances(cloud_, spacing_neighbors)));
+                : options_.radius_spacings * static_cast<double>(upper_median(point_spacings(cloud_)));
 }
 
 ViewImages SurfelView::render(const Camera& camera, const SE3& T_world_camera, const ViewRequest& request) {

@@ -45,6 +45,10 @@ void OdometryOptions::check() const {
           "positive");
 }
 
+bool OdometryOptions::allows(const MisfitEffect& effect, double sigmas) const {
+  return effect.sigmas < sigmas || (effect.meters <= max_misfit_translation && effect.radians <= max_misfit_rotation);
+}
+
 std::string to_string(TrackStatus status) {
   switch (status) {
     case TrackStatus::ok:
@@ -182,10 +186,7 @@ bool Odometry::stands(const MapEvidence& evidence, const MisfitEffect& misfit, b
   if (front_.empty() || front_.newest().patches == nullptr) return true;
   // A search for a pose makes up for a wrong camera by a wrong pose: then less suffices to refuse it.
   constexpr double likely_sigmas = 2.0;
-  const bool misfits = misfit.significant() || (to_be_confirmed && misfit.sigmas >= likely_sigmas);
-  if (misfits && (misfit.meters > options_.max_misfit_translation || misfit.radians > options_.max_misfit_rotation)) {
-    return false;
-  }
+  if (!options_.allows(misfit, to_be_confirmed ? likely_sigmas : MisfitEffect::significant_sigmas)) return false;
   if (evidence.verdict == Confirmation::confirmed) return true;
   return !to_be_confirmed && evidence.verdict != Confirmation::contradicted;
 }

@@ -54,6 +54,9 @@ struct OdometryOptions {
   double max_misfit_translation = 0.05;  // [m]
   double max_misfit_rotation = 0.04;     // [rad]
 
+  /// False if the misfit refuses the pose: an error of the camera that is probable by so many standard deviations moves
+  /// it by more than the limits above.
+  bool allows(const MisfitEffect& effect, double sigmas = MisfitEffect::significant_sigmas) const;
   void check() const;
 };
 

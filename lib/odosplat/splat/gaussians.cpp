@@ -3,19 +3,16 @@
 #include "odosplat/splat/gaussians.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 
 namespace {
 
 std::string value_and_limit(const char* what, float value, float limit) {
-  char text[96];
-  std::snprintf(text, sizeof(text), "%s is %.3g, beyond %.3g", what, static_cast<double>(value),
-                static_cast<double>(limit));
-  return text;
+  return formatted("%s is %.3g, beyond %.3g", what, static_cast<double>(value), static_cast<double>(limit));
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <set>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/io/text/text_rows.hpp"
 #include "odosplat/io/text/text_words.hpp"
 
@@ -23,7 +23,7 @@ constexpr double most_count = std::numeric_limits<int>::max();
 
 enum class Kind { word, real, whole };
 
-struct Field {
+struct HeaderField {
   std::string_view name;
   Kind kind;
   double least;
@@ -34,7 +34,7 @@ struct Field {
 // The sigma factors may be at least twenty times the largest that calibration gives; with a depth share of 1, sigma is
 // as large as the depth. Negative quality_depth_..., quality_color_... and quality_images_a_point mean that the value
 // is unknown.
-constexpr auto fields = std::to_array<Field>({
+constexpr auto header_fields = std::to_array<HeaderField>({
     {"blend_order", Kind::word, 0, 0, true},
     {"dilation", Kind::real, 0.01, 100, true},
     {"compensated", Kind::whole, 0, 1, true},
@@ -95,19 +95,15 @@ constexpr auto fields = std::to_array<Field>({
     {"reset_opacity", Kind::real, 0, 1, false},
 });
 
-std::string printed(double value) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.9g", value);
-  return text;
-}
+std::string printed(double value) { return formatted("%.9g", value); }
 
-std::string range_of(const Field& field) {
+std::string range_of(const HeaderField& field) {
   const std::string kind = field.kind == Kind::whole ? "a whole number" : "a number";
   if (field.most >= most_count) return kind + " of at least " + printed(field.least);
   return kind + " in " + printed(field.least) + ".." + printed(field.most);
 }
 
-void check_value(const Field& field, std::string_view text) {
+void check_value(const HeaderField& field, std::string_view text) {
   if (field.kind == Kind::word) return;
   const std::optional<double> value = number_of(text);
   const bool ok = value && *value >= field.least && *value <= field.most &&
@@ -135,9 +131,9 @@ void check_map_header(const std::vector<std::string>& comments) {
   for (const std::string& comment : comments) {
     std::string_view rest = comment;
     const std::string_view name = take_word(rest);
-    const auto field =
-        std::find_if(fields.begin(), fields.end(), [name](const Field& known) { return known.name == name; });
-    if (field == fields.end() || !(is_ours || field->read_back)) continue;
+    const auto field = std::find_if(header_fields.begin(), header_fields.end(),
+                                    [name](const HeaderField& known) { return known.name == name; });
+    if (field == header_fields.end() || !(is_ours || field->read_back)) continue;
     if (!seen.insert(field->name).second) throw InputError(std::string(name), "comes twice");
     check_value(*field, rest);
   }
@@ -146,8 +142,8 @@ void check_map_header(const std::vector<std::string>& comments) {
 bool names_map_setting(const std::string& comment) {
   std::string_view rest = comment;
   const std::string_view name = take_word(rest);
-  return std::any_of(fields.begin(), fields.end(),
-                     [name](const Field& known) { return known.name == name && !known.read_back; });
+  return std::any_of(header_fields.begin(), header_fields.end(),
+                     [name](const HeaderField& known) { return known.name == name && !known.read_back; });
 }
 
 std::optional<double> map_header_number(const std::vector<std::string>& comments, std::string_view field) {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/splat/gaussians.hpp"
 
 namespace odosplat {
@@ -43,10 +43,8 @@ std::vector<std::string> place_lines(const std::vector<SE3>& places) {
   for (const SE3& T_world_camera : places) {
     const Eigen::Vector3d& t = T_world_camera.translation();
     const Eigen::Quaterniond& q = T_world_camera.rotation();
-    char line[160];
-    std::snprintf(line, sizeof(line), "training_view %.4f %.4f %.4f %.6f %.6f %.6f %.6f", t.x(), t.y(), t.z(), q.x(),
-                  q.y(), q.z(), q.w());
-    lines.emplace_back(line);
+    lines.push_back(
+        formatted("training_view %.4f %.4f %.4f %.6f %.6f %.6f %.6f", t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()));
   }
   return lines;
 }

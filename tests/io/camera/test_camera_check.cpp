@@ -45,6 +45,10 @@ TEST(CameraCheck, NumbersThatNoLensHasAreNamed) {
   EXPECT_EQ(fault("gamma", "1e9"), "c: gamma: must be in 0.1..10, is 1e+09");
   EXPECT_EQ(fault("gamma", "1e-9"), "c: gamma: must be in 0.1..10, is 1e-09");
   EXPECT_EQ(fault("fps", "1e300"), "c: fps: must be in 1e-06..1e+06, is 1e+300");
+  EXPECT_EQ(fault("time_offset", "10.5"), "c: time_offset: must be in -10..10, is 10.5");
+  EXPECT_EQ(fault("time_offset", "-1e300"), "c: time_offset: must be in -10..10, is -1e+300");
+  EXPECT_EQ(fault("time_offset", ".inf"), "c: time_offset: is not finite");
+  EXPECT_EQ(fault("time_offset", "soon"), "c: time_offset: is not a number");
   EXPECT_EQ(fault("depth_scale", "1e-300"), "c: depth_scale: must be in 0.001..1e+09, is 1e-300");
   // Unusual but valid: an image cut out of a larger one, a telescope, an extremely wide lens.
   for (const auto& [key, value] : {std::pair{"cx", "-900"}, {"fx", "50000"}, {"fx", "2"}}) {

@@ -37,17 +37,20 @@ TEST(CameraFile, ReadsTheNeededKeysAndDefaultsTheRest) {
   EXPECT_FALSE(file.has_depth_scale);
   EXPECT_TRUE(file.distortion.empty());
   EXPECT_EQ(file.fps, 0.0);
+  EXPECT_EQ(file.time_offset, 0.0);
 }
 
 TEST(CameraFile, ReadsTheOptionalKeys) {
   const CameraFile file =
       parse_camera_file("c", minimal +
                                  "# a comment\ndepth_scale: 5000\ndistortion: [0.1, -0.2, 1e-3, 0]\n"
-                                 "fps: 25\ngamma: 2.2\nvignette: vignette.png\n");
+                                 "fps: 25\ntime_offset: -0.025\ngamma: 2.2\nvignette: vignette.png\n");
   EXPECT_EQ(file.depth_scale, 5000.0);
   EXPECT_TRUE(file.has_depth_scale);
   EXPECT_THAT(file.distortion, ElementsAre(0.1, -0.2, 1e-3, 0.0));
   EXPECT_EQ(file.fps, 25.0);
+  EXPECT_EQ(file.time_offset, -0.025);
+  EXPECT_EQ(file.depth_time_offset(), -0.025);
   EXPECT_EQ(file.gamma, 2.2);
   EXPECT_EQ(file.vignette, "vignette.png");
 }
@@ -66,6 +69,7 @@ TEST(CameraFile, RoundTripKeepsEveryBit) {
   file.depth_scale = 6553.5;
   file.distortion = {0.262383, -0.953104, -0.005358, 0.002628, 1.163314};
   file.fps = 29.97;
+  file.time_offset = -1.0 / 30.0;
   file.gamma = 2.2;
   file.vignette = "a \"quoted\": # name\\.png";
   temp.put(file.vignette, "");
@@ -76,6 +80,7 @@ TEST(CameraFile, RoundTripKeepsEveryBit) {
   EXPECT_EQ(read.depth_scale, file.depth_scale);
   EXPECT_EQ(read.distortion, file.distortion);
   EXPECT_EQ(read.fps, file.fps);
+  EXPECT_EQ(read.time_offset, file.time_offset);
   EXPECT_EQ(read.gamma, file.gamma);
   EXPECT_EQ(read.vignette, file.vignette);
 }
@@ -102,6 +107,18 @@ TEST(CameraFile, ADepthCameraIsReadAndWritten) {
   EXPECT_EQ(read.depth_camera->time_offset, -0.01);
 }
 
+TEST(CameraFile, TheTimeOffsetsOfImagesAndOfADepthCameraAreTwo) {
+  const std::string both = with("fx: 20") + "\ntime_offset: 0.02\n" + depth_camera_lines;
+  const CameraFile without_own = parse_camera_file("c", both);
+  EXPECT_EQ(without_own.time_offset, 0.02);
+  EXPECT_EQ(without_own.depth_time_offset(), 0.0);
+  const TempFolder temp;
+  write_camera_file(temp / "camera.yaml", parse_camera_file("c", both + "  time_offset: -0.01\n"));
+  const CameraFile read = read_camera_file(temp / "camera.yaml");
+  EXPECT_EQ(read.time_offset, 0.02);
+  EXPECT_EQ(read.depth_time_offset(), -0.01);
+}
+
 TEST(CameraFile, ADepthCameraThatIsWrongIsRefused) {
   const auto fault = [](const std::string& from, const std::string& to, const std::string& camera = "fx: 20") {
     std::string lines = depth_camera_lines;
@@ -118,6 +135,8 @@ TEST(CameraFile, ADepthCameraThatIsWrongIsRefused) {
   EXPECT_EQ(fault("0, 0, 0, 1]", "0, 0, 0, 3]"),
             "c.yaml: depth_camera.T_color_depth: the quaternion has length 3, must be near 1 (0.5..2)");
   EXPECT_EQ(fault("-0.025", "-25"), "c.yaml: depth_camera.T_color_depth: its translation must be at most 10 m, is 25");
+  EXPECT_EQ(fault("cx: 12", "cx: 12\n  time_offset: -11"),
+            "c.yaml: depth_camera.time_offset: must be in -10..10, is -11");
   EXPECT_EQ(fault("width: 24", "width: 1"), "c.yaml: depth_camera.width: must be in 2..32768, is 1");
   EXPECT_EQ(fault("width: 24", "width: 24", "fy: -20"), "c.yaml: depth_camera: does not go with a negative fy");
   EXPECT_EQ(error_of([&] { parse_camera_file("c.yaml", with("fx: 20") + "\ndepth_camera: 3\n"); }),

@@ -90,15 +90,16 @@ TEST(CameraOfOthers, RefusesWhatIsNotRead) {
 }
 
 TEST(CameraOfOthers, TakesOurOwnKeysToo) {
-  const CameraFile file = parse_camera_file(
-      "c.yaml",
-      ros_calibration +
-          "depth_scale: 5000\nfps: 15\ndepth_camera:\n  width: 24\n  height: 18\n  fx: 22\n  fy: 23\n  cx: 12\n"
-          "  cy: 9\n  T_color_depth: [-0.025, 0.001, 0.002, 0, 0, 0, 1]\n");
+  const CameraFile file =
+      parse_camera_file("c.yaml", ros_calibration +
+                                      "depth_scale: 5000\nfps: 15\ntime_offset: 0.02\n"
+                                      "depth_camera:\n  width: 24\n  height: 18\n  fx: 22\n  fy: 23\n  cx: 12\n"
+                                      "  cy: 9\n  T_color_depth: [-0.025, 0.001, 0.002, 0, 0, 0, 1]\n");
   EXPECT_EQ(file.camera, expected);
   EXPECT_EQ(file.depth_scale, 5000.0);
   EXPECT_TRUE(file.has_depth_scale);
   EXPECT_EQ(file.fps, 15.0);
+  EXPECT_EQ(file.time_offset, 0.02);
   EXPECT_TRUE(file.depth_camera.has_value());
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "odosplat/cloud/check/visible_patches.hpp"
+#include "odosplat/core/angles.hpp"
 #include "odosplat/core/pair_scores.hpp"
 #include "odosplat/core/parallel.hpp"
 
@@ -22,7 +23,6 @@ constexpr double most_shift = 6.0;         // [px] search radius for a patch
 constexpr double least_share = 0.1;        // share of the patches that must be found
 constexpr double clear_texture = 0.02;     // directions with a smaller eigenvalue of a match's information are not used
 constexpr double least_spread = 0.05;      // [px] lower limit for the spread of the matches
-constexpr double radian = 180.0 / 3.14159265358979323846;
 constexpr double prior_turn = 0.2;
 constexpr double prior_scale = 0.2;
 constexpr double prior_share = 0.5;  // of the median depth
@@ -244,16 +244,6 @@ double median_distance(const std::vector<Measurement>& measurements, const Vecto
   return median_of(std::move(distances));
 }
 
-Measured with_sigma(double value, double formal, double floor, const std::vector<double>& without) {
-  double mean = 0.0;
-  for (const double v : without) mean += v / static_cast<double>(without.size());
-  double squares = 0.0;
-  for (const double v : without) squares += (v - mean) * (v - mean);
-  const double n = static_cast<double>(without.size());
-  const double jackknife = n > 1.0 ? std::sqrt((n - 1.0) / n * squares) : 0.0;
-  return {value, std::hypot(floor, std::max(formal, jackknife))};
-}
-
 // The length of a vector and its sigma along the vector; the largest sigma of any direction if the length is below it.
 Measured length_of(const Eigen::Vector3d& value, const Eigen::Matrix3d& covariance, double floor,
                    const std::vector<Eigen::Vector3d>& without) {
@@ -353,7 +343,7 @@ CloudFit fit_cloud(const CloudFitInput& input, const CloudFitOptions& options) {
     scales.push_back(std::exp(total[6]));
     focals.push_back(input.camera.fx * std::exp(total[7]));
     offsets.emplace_back(total.head<3>());
-    turns.emplace_back(radian * total.segment<3>(3));
+    turns.emplace_back(degrees_per_radian * total.segment<3>(3));
     origins.push_back(origin_of(total));
   }
   Eigen::Matrix<double, 3, unknowns> origin_slope;
@@ -372,7 +362,8 @@ CloudFit fit_cloud(const CloudFitInput& input, const CloudFitOptions& options) {
   fit.origin_offset_m =
       length_of(origin_of(so_far), origin_slope * covariance * origin_slope.transpose(), floor_m, origins);
   fit.turn_deg =
-      length_of(radian * so_far.segment<3>(3), radian * radian * covariance.block<3, 3>(3, 3), floor_turn_deg, turns);
+      length_of(degrees_per_radian * so_far.segment<3>(3),
+                degrees_per_radian * degrees_per_radian * covariance.block<3, 3>(3, 3), floor_turn_deg, turns);
   return fit;
 }
 

@@ -8,18 +8,13 @@
 #include <vector>
 
 #include "odosplat/camera/camera.hpp"
+#include "odosplat/cloud/check/measured.hpp"
 #include "odosplat/core/image.hpp"
 #include "odosplat/core/point_cloud.hpp"
 #include "odosplat/core/se3.hpp"
 #include "odosplat/core/similarity.hpp"
 
 namespace odosplat {
-
-/// A value and its standard deviation.
-struct Measured {
-  double value = 0.0;
-  double sigma = 0.0;
-};
 
 /// The similarity by which a cloud, and the factor by which the focal length, would have to be corrected to agree with
 /// the images.

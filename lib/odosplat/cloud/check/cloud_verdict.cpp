@@ -4,22 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 
 #include "odosplat/cloud/length_units.hpp"
+#include "odosplat/core/angles.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 namespace {
-
-constexpr double radian = 180.0 / 3.14159265358979323846;
-
-template <typename... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[240];
-  std::snprintf(text, sizeof(text), pattern, values...);
-  return text;
-}
 
 struct Part {
   const char* name;
@@ -28,7 +20,7 @@ struct Part {
 };
 
 const Part parts[] = {
-    {"fy", [](const CloudReading& r, const Camera& camera) { return format("%+.1f", r.fy_sign * camera.fy); },
+    {"fy", [](const CloudReading& r, const Camera& camera) { return formatted("%+.1f", r.fy_sign * camera.fy); },
      [](const CloudReading& a, const CloudReading& b) { return a.fy_sign == b.fy_sign; }},
     {"cloud's y",
      [](const CloudReading& r, const Camera& /*camera*/) { return std::string(r.mirrored ? "negated" : "as stored"); },
@@ -38,7 +30,7 @@ const Part parts[] = {
      [](const CloudReading& a, const CloudReading& b) { return a.inverted == b.inverted; }},
     {"id shift",
      [](const CloudReading& r, const Camera& /*camera*/) {
-       return r.id_shift == 0 ? std::string("0") : format("%+d", r.id_shift);
+       return r.id_shift == 0 ? std::string("0") : formatted("%+d", r.id_shift);
      },
      [](const CloudReading& a, const CloudReading& b) { return a.id_shift == b.id_shift; }},
 };
@@ -58,8 +50,8 @@ std::string difference_text(const Part& part, const CloudReading& winner, const 
   std::string text = std::string(part.name) + ": the images want " + part.text(winner, camera) + ", the files say " +
                      part.text(declared, camera);
   if (&part == &parts[3]) {
-    text += format(" (image k belongs to the pose of image k %c %d)", winner.id_shift > 0 ? '+' : '-',
-                   std::abs(winner.id_shift));
+    text += formatted(" (image k belongs to the pose of image k %c %d)", winner.id_shift > 0 ? '+' : '-',
+                      std::abs(winner.id_shift));
   }
   return text;
 }
@@ -75,7 +67,7 @@ CloudFinding part_finding(const CloudCheckReport& report, const Part& part, cons
   if (rival != report.rows.end()) {
     const auto says = [&](const CloudRow& row) {
       return part.text(row.reading, camera) +
-             (row.tried ? format(" differs by %.2f", row.relative_error) : " cannot be tried without more poses");
+             (row.tried ? formatted(" differs by %.2f", row.relative_error) : " cannot be tried without more poses");
     };
     finding.text =
         std::string(part.name) + ": not decidable from these images (" + says(winner) + ", " + says(*rival) + ")";
@@ -108,26 +100,26 @@ std::vector<CloudFinding> fit_findings(const CloudFit& fit, const CloudCheckOpti
   const double scale_sigma = fit.scale.sigma * scale * scale;
   findings.push_back(
       fit_finding("cloud scale", std::abs(scale - 1.0), scale_sigma, o.least_scale, o.sure,
-                  format("the cloud is %.4g times as large as the poses say, +- %.2g", scale, scale_sigma),
-                  format("%.3g +- %.2g", scale, scale_sigma)));
+                  formatted("the cloud is %.4g times as large as the poses say, +- %.2g", scale, scale_sigma),
+                  formatted("%.3g +- %.2g", scale, scale_sigma)));
   // If only the scale about the world's origin is wrong, the visible part is shifted but the origin is not. With a
   // wrong scale the offset is therefore taken at the origin.
   const bool scaled = findings.back().right == false;
   const Measured& offset = scaled ? fit.origin_offset_m : fit.offset_m;
-  findings.push_back(
-      fit_finding("cloud offset", offset.value, offset.sigma, o.least_offset * fit.median_depth_m, o.sure,
-                  format("the cloud is off by %.3f m +- %.3f (to be moved by %.3f %.3f %.3f%s)", offset.value,
-                         offset.sigma, fit.offset.x(), fit.offset.y(), fit.offset.z(), scaled ? " in its middle" : ""),
-                  format("%.2f +- %.2g m", offset.value, offset.sigma)));
   findings.push_back(fit_finding(
-      "cloud rotation", fit.turn_deg.value, fit.turn_deg.sigma, radian * o.least_offset, o.sure,
-      format("the cloud is turned by %.2f deg +- %.2f against the poses", fit.turn_deg.value, fit.turn_deg.sigma),
-      format("%.2f +- %.2g deg", fit.turn_deg.value, fit.turn_deg.sigma)));
+      "cloud offset", offset.value, offset.sigma, o.least_offset * fit.median_depth_m, o.sure,
+      formatted("the cloud is off by %.3f m +- %.3f (to be moved by %.3f %.3f %.3f%s)", offset.value, offset.sigma,
+                fit.offset.x(), fit.offset.y(), fit.offset.z(), scaled ? " in its middle" : ""),
+      formatted("%.2f +- %.2g m", offset.value, offset.sigma)));
+  findings.push_back(fit_finding(
+      "cloud rotation", fit.turn_deg.value, fit.turn_deg.sigma, degrees_per_radian * o.least_offset, o.sure,
+      formatted("the cloud is turned by %.2f deg +- %.2f against the poses", fit.turn_deg.value, fit.turn_deg.sigma),
+      formatted("%.2f +- %.2g deg", fit.turn_deg.value, fit.turn_deg.sigma)));
   findings.push_back(fit_finding("focal length", std::abs(fit.focal_px.value / camera.fx - 1.0),
                                  fit.focal_px.sigma / camera.fx, o.least_focal, o.sure,
-                                 format("the images want fx = %.1f +- %.1f px, the camera file says %.1f",
-                                        fit.focal_px.value, fit.focal_px.sigma, camera.fx),
-                                 format("%.1f +- %.2g px", fit.focal_px.value, fit.focal_px.sigma)));
+                                 formatted("the images want fx = %.1f +- %.1f px, the camera file says %.1f",
+                                           fit.focal_px.value, fit.focal_px.sigma, camera.fx),
+                                 formatted("%.1f +- %.2g px", fit.focal_px.value, fit.focal_px.sigma)));
   return findings;
 }
 
@@ -151,7 +143,7 @@ namespace {
 // The errors with the cloud and with both controls, as part of a sentence.
 std::string control_text(const CloudControl& control) {
   const auto text = [](const PairScores& scores) {
-    return std::isfinite(scores.relative_error) ? format("%.2f", scores.relative_error) : std::string("-");
+    return std::isfinite(scores.relative_error) ? formatted("%.2f", scores.relative_error) : std::string("-");
   };
   return "patches differ by " + text(control.cloud) + " with it, by " + text(control.flat) +
          " with a flat wall at its distance, by " + text(control.distant) + " with one far off";
@@ -195,7 +187,7 @@ void judge_cloud(CloudCheckReport& report, const CloudCheckOptions& options, con
     } else {
       report.answer = CloudAnswer::differ;
       report.verdict = "no reading fits: the best leaves patches different by " +
-                       format(
+                       formatted(
                            "%.2f (0: alike, 1: no relation); cloud and poses are not of one world, or cloud, scale "
                            "or camera are far off",
                            winner.relative_error);
@@ -207,9 +199,9 @@ void judge_cloud(CloudCheckReport& report, const CloudCheckOptions& options, con
   if (report.unit != 1.0) {
     report.findings.push_back({"cloud unit", false,
                                "cloud unit: " + unit_words(report.unit) +
-                                   format(", %.4g times as large as the poses say; the rest is said of it with that "
-                                          "mended",
-                                          report.unit)});
+                                   formatted(", %.4g times as large as the poses say; the rest is said of it with that "
+                                             "mended",
+                                             report.unit)});
   }
   // If the cloud is not shown to fit, errors of the reading are reported only if patches do not agree at all under the
   // declared reading.
@@ -244,7 +236,7 @@ void judge_cloud(CloudCheckReport& report, const CloudCheckOptions& options, con
     if (!fits && !gains) report.verdict += "; beyond that, " + doubt_text(report, options);
   } else if (fits && measured) {
     report.answer = CloudAnswer::agree;
-    report.verdict = format("images, poses and cloud agree, patches to %.2f", winner.relative_error);
+    report.verdict = formatted("images, poses and cloud agree, patches to %.2f", winner.relative_error);
   } else {
     report.answer = CloudAnswer::undecided;
     report.verdict = fits
@@ -270,11 +262,11 @@ std::string cloud_table(const CloudCheckReport& report, const Camera& camera, st
     const bool is_declared = row.reading == report.declared;
     const bool is_winner = row.reading == report.winner;
     if (i >= max_rows && !is_declared && !is_winner) continue;
-    table += format("%c%c %8s  %-9s  %-9s  %8s  %10s  %9.1f\n", is_winner ? '*' : ' ', is_declared ? 'd' : ' ',
-                    parts[0].text(row.reading, camera).c_str(), parts[1].text(row.reading, camera).c_str(),
-                    parts[2].text(row.reading, camera).c_str(), parts[3].text(row.reading, camera).c_str(),
-                    std::isfinite(row.relative_error) ? format("%.3f", row.relative_error).c_str() : "-",
-                    100.0 * row.overlap);
+    table += formatted("%c%c %8s  %-9s  %-9s  %8s  %10s  %9.1f\n", is_winner ? '*' : ' ', is_declared ? 'd' : ' ',
+                       parts[0].text(row.reading, camera).c_str(), parts[1].text(row.reading, camera).c_str(),
+                       parts[2].text(row.reading, camera).c_str(), parts[3].text(row.reading, camera).c_str(),
+                       std::isfinite(row.relative_error) ? formatted("%.3f", row.relative_error).c_str() : "-",
+                       100.0 * row.overlap);
   }
   return table;
 }

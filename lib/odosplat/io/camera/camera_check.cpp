@@ -7,49 +7,16 @@
 #include <cmath>
 #include <limits>
 
+#include "odosplat/camera/lens_model.hpp"
 #include "odosplat/core/error.hpp"
-#include "odosplat/core/number_text.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 namespace {
 
-/// The lens distortion on the plane z = 1, with the same model as Undistorter.
-class Lens {
- public:
-  explicit Lens(const std::vector<double>& d)
-      : k1_(d[0]), k2_(d[1]), p1_(d[2]), p2_(d[3]), k3_(d.size() > 4 ? d[4] : 0.0) {}
-
-  Eigen::Vector2d distorted(const Eigen::Vector2d& p) const {
-    const double r2 = p.squaredNorm();
-    const double xy = p.x() * p.y();
-    return p * radial(r2) + Eigen::Vector2d(2.0 * p1_ * xy + p2_ * (r2 + 2.0 * p.x() * p.x()),
-                                            p1_ * (r2 + 2.0 * p.y() * p.y()) + 2.0 * p2_ * xy);
-  }
-
-  Eigen::Matrix2d slope(const Eigen::Vector2d& p) const {
-    const double r2 = p.squaredNorm();
-    const double growth = 2.0 * (k1_ + r2 * (2.0 * k2_ + r2 * 3.0 * k3_));  // 2 d radial / d r^2
-    Eigen::Matrix2d J = radial(r2) * Eigen::Matrix2d::Identity() + growth * p * p.transpose();
-    J(0, 0) += 2.0 * p1_ * p.y() + 6.0 * p2_ * p.x();
-    J(0, 1) += 2.0 * p1_ * p.x() + 2.0 * p2_ * p.y();
-    J(1, 0) += 2.0 * p1_ * p.x() + 2.0 * p2_ * p.y();
-    J(1, 1) += 6.0 * p1_ * p.y() + 2.0 * p2_ * p.x();
-    return J;
-  }
-
- private:
-  double radial(double r2) const { return 1.0 + r2 * (k1_ + r2 * (k2_ + r2 * k3_)); }
-
-  double k1_;
-  double k2_;
-  double p1_;
-  double p2_;
-  double k3_;
-};
-
 /// Whether the distortion's Jacobian has a positive determinant everywhere between two rays. Otherwise the rays lie on
 /// different sides of a fold.
-bool same_side(const Lens& lens, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+bool same_side(const LensModel& lens, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   constexpr int samples = 8;
   for (int i = 1; i <= samples; ++i) {
     const double share = static_cast<double>(i) / samples;
@@ -60,7 +27,7 @@ bool same_side(const Lens& lens, const Eigen::Vector2d& from, const Eigen::Vecto
 
 /// The fraction of the way from the axis to `target` (both on the distorted plane z = 1) up to which every point shows
 /// exactly one ray. The ray is followed outward by Newton's method until the Jacobian's determinant is not positive.
-double reach(const Lens& lens, const Eigen::Vector2d& target) {
+double reach(const LensModel& lens, const Eigen::Vector2d& target) {
   constexpr int steps = 64;
   constexpr int iterations = 20;
   constexpr double precision = 1e-9;
@@ -132,7 +99,7 @@ void check_depth_camera(const CameraFile& file) {
 double fold_radius(const Camera& camera, const std::vector<double>& distortion) {
   double radius = std::numeric_limits<double>::infinity();
   if (std::all_of(distortion.begin(), distortion.end(), [](double d) { return d == 0.0; })) return radius;
-  const Lens lens(distortion);
+  const LensModel lens(distortion);
   constexpr int places = 16;  // samples per side of the border, including the corners
   const Eigen::Vector2d last(camera.width - 1.0, camera.height - 1.0);
   const Eigen::Vector2d centre(camera.cx, camera.cy);
@@ -154,6 +121,7 @@ void check_camera(const CameraFile& file) {
   if (file.depth_camera) check_depth_camera(file);
   require_range("depth_scale", file.depth_scale, camera_limits::least_depth_scale, camera_limits::most_depth_scale);
   if (file.fps != 0.0) require_range("fps", file.fps, 1.0 / camera_limits::most_fps, camera_limits::most_fps);
+  require_range("time_offset", file.time_offset, -camera_limits::most_time_offset, camera_limits::most_time_offset);
   if (file.gamma != 0.0) require_range("gamma", file.gamma, camera_limits::least_gamma, camera_limits::most_gamma);
 }
 

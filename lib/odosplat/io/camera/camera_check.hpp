@@ -18,12 +18,12 @@ constexpr double most_fps = 1e6;
 constexpr double least_gamma = 0.1;
 constexpr double most_gamma = 10.0;
 constexpr double most_baseline = 10.0;     // [m] between colour and depth camera
-constexpr double most_time_offset = 10.0;  // [s]
+constexpr double most_time_offset = 10.0;  // [s] between images and poses
 }  // namespace camera_limits
 
 /// Throws InputError(key, fault) for an implausible camera: one that Camera::check refuses, a distortion that is not
 /// finite or not one-to-one over the image except for its corners (fold_radius), or a given gamma, depth_scale,
-/// fps or depth camera out of range.
+/// fps, time_offset or depth camera out of range.
 void check_camera(const CameraFile& file);
 
 /// The same, with the camera's file before the key: InputError(name, key, fault).

@@ -9,7 +9,7 @@
 namespace odosplat {
 
 /// Reads a camera.yaml, or a camera file of OpenCV, ROS (camera_info), Kalibr or EuRoC (read_camera_of_others), which may
-/// hold depth_scale, fps, gamma, vignette and depth_camera, too; what else it holds is ignored.
+/// hold depth_scale, fps, time_offset, gamma, vignette and depth_camera, too; what else it holds is ignored.
 /// Throws InputError(file, key, fault): a key missing, unknown or given twice, a value that is not a number or not
 /// finite, several YAML documents, a number of distortion coefficients other than 4 or 5, a T_color_depth
 /// without rotation, and everything that check_camera refuses; when reading from a path also if the vignette's file does not exist.

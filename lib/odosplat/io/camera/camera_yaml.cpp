@@ -11,16 +11,6 @@
 #include "odosplat/core/yaml_document.hpp"
 
 namespace odosplat {
-namespace {
-
-// Text for a one-line error: quoted keys and the parser's messages may contain line ends.
-std::string shown(std::string text) {
-  text.resize(std::min<std::size_t>(text.size(), 80));
-  for (char& c : text) c = static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-  return text;
-}
-
-}  // namespace
 
 CameraYaml::CameraYaml(std::string name, std::string text) : name_(std::move(name)) {
   if (text.size() > max_camera_file_size) throw InputError(name_, "is too long for a camera file");
@@ -30,7 +20,7 @@ CameraYaml::CameraYaml(std::string name, std::string text) : name_(std::move(nam
     if (!document) fail("content", "holds several YAML documents (`---`), must hold one");
     root_.reset(*document);
   } catch (const YAML::Exception& e) {
-    fail("line " + std::to_string(e.mark.line + 1), shown(e.msg));
+    fail("line " + std::to_string(e.mark.line + 1), yaml_excerpt(e.msg));
   }
   if (!root_.IsMap()) fail("content", "is not a list of `key: value` lines");
   refuse_duplicates();
@@ -75,7 +65,7 @@ std::string CameraYaml::text(const char* key) const {
 void CameraYaml::refuse_unknown(const std::set<std::string>& known) const {
   for (const auto& entry : root_) {
     if (!entry.first.IsScalar()) fail("content", "has a key that is not a word");
-    if (known.count(entry.first.Scalar()) == 0) fail(shown(entry.first.Scalar()), "is not a known key");
+    if (known.count(entry.first.Scalar()) == 0) fail(yaml_excerpt(entry.first.Scalar()), "is not a known key");
   }
 }
 
@@ -98,7 +88,7 @@ void CameraYaml::refuse_duplicates() const {
     const int line = entry.first.Mark().line + 1;
     const auto [first, added] = lines.emplace(entry.first.Scalar(), line);
     if (added) continue;
-    fail(shown(first->first),
+    fail(yaml_excerpt(first->first),
          "is given twice, in lines " + std::to_string(first->second) + " and " + std::to_string(line));
   }
 }

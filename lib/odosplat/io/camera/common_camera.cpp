@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/upper_median.hpp"
 
@@ -50,11 +50,7 @@ Parameters median_of(const std::vector<Parameters>& all) {
   return median;
 }
 
-std::string pixels(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f px", value);
-  return text;
-}
+std::string pixels(double value) { return formatted("%.2f px", value); }
 
 }  // namespace
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <optional>
 #include <sstream>
 #include <utility>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/upper_median.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/camera/camera_check.hpp"
@@ -80,10 +80,9 @@ void divide_by_median(const std::string& name, std::vector<double>& exposures) {
   for (std::size_t i = 0; i < exposures.size(); ++i) {
     const double relative = exposures[i] / median;
     if (!(relative >= least_exposure && relative <= most_exposure)) {
-      char fault[120];
-      std::snprintf(fault, sizeof(fault), "its exposure %.6g is %.3g times the median, must be 1e-6..1e6 times it",
-                    exposures[i], relative);
-      throw InputError(name, "frame " + std::to_string(i), fault);
+      throw InputError(
+          name, "frame " + std::to_string(i),
+          formatted("its exposure %.6g is %.3g times the median, must be 1e-6..1e6 times it", exposures[i], relative));
     }
     exposures[i] = relative;
   }

@@ -13,7 +13,7 @@
 namespace odosplat {
 namespace {
 
-using Names = std::array<const char*, 3>;
+using PropertyNames = std::array<const char*, 3>;
 using Vectors = std::vector<Eigen::Vector3f>;
 
 // Collects batches into a cloud, which has colours and normals for all points or for none.
@@ -77,9 +77,9 @@ PointCloud parse_point_cloud(const std::string& name, const std::string& bytes) 
 void write_point_cloud(const std::string& path, const PointCloud& cloud, const std::vector<std::string>& notes) {
   PlyElement vertex;
   vertex.name = "vertex";
-  const Names axes{"x", "y", "z"};
-  const Names normal_axes{"nx", "ny", "nz"};
-  const Names channels{"red", "green", "blue"};
+  const PropertyNames axes{"x", "y", "z"};
+  const PropertyNames normal_axes{"nx", "ny", "nz"};
+  const PropertyNames channels{"red", "green", "blue"};
   for (int a = 0; a < 3; ++a) vertex.add(axes[static_cast<std::size_t>(a)], axis_of(cloud.points, a));
   for (int a = 0; a < 3 && cloud.has_normals(); ++a) {
     vertex.add(normal_axes[static_cast<std::size_t>(a)], axis_of(cloud.normals, a));

@@ -17,7 +17,7 @@ struct PointFormat {
   std::size_t color;   // offset of red, green, blue in it; 0: none
 };
 
-constexpr std::array<PointFormat, 11> formats{
+constexpr std::array<PointFormat, 11> point_formats{
     {{20, 0}, {28, 0}, {26, 20}, {34, 28}, {57, 0}, {63, 28}, {30, 0}, {36, 30}, {38, 30}, {59, 0}, {67, 30}}};
 
 class LasSource : public CloudSource {
@@ -37,8 +37,9 @@ class LasSource : public CloudSource {
     if ((packed & 0xC0) != 0) {
       throw InputError(input_.name, "is compressed (LAZ); decompress it first, as with laszip or pdal translate");
     }
-    if (packed >= static_cast<int>(formats.size())) fail("point format " + std::to_string(packed) + " is unknown");
-    format_ = formats[static_cast<std::size_t>(packed)];
+    if (packed >= static_cast<int>(point_formats.size()))
+      fail("point format " + std::to_string(packed) + " is unknown");
+    format_ = point_formats[static_cast<std::size_t>(packed)];
     is_extended_ = packed >= 6;
     length_ = load_little<std::uint16_t>(h + 105);
     if (length_ < format_.length) {

@@ -8,6 +8,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/text/text_rows.hpp"
+#include "odosplat/io/text/text_words.hpp"
 
 namespace odosplat {
 namespace {
@@ -17,7 +18,6 @@ using Names = std::vector<std::string>;
 using Triple = TextLayout::Triple;
 
 constexpr std::size_t sample_rows = 100;
-constexpr std::string_view blanks = " \t\r";
 
 char separator_of(std::string_view line) {
   if (line.find(';') != std::string_view::npos) return ';';

@@ -17,9 +17,9 @@ using Words = std::vector<std::string_view>;
 
 constexpr std::size_t max_stride = std::size_t{1} << 20;  // [bytes] far above the length of any real row
 
-class HeaderReader {
+class PcdHeaderReader {
  public:
-  HeaderReader(const std::string& name, LineReader& lines) : name_(name), lines_(lines) {}
+  PcdHeaderReader(const std::string& name, LineReader& lines) : name_(name), lines_(lines) {}
 
   PcdHeader read() {
     std::string line;
@@ -146,6 +146,6 @@ const PcdField* PcdHeader::find(const std::string& name) const {
   return nullptr;
 }
 
-PcdHeader read_pcd_header(const std::string& name, LineReader& lines) { return HeaderReader(name, lines).read(); }
+PcdHeader read_pcd_header(const std::string& name, LineReader& lines) { return PcdHeaderReader(name, lines).read(); }
 
 }  // namespace odosplat

@@ -11,11 +11,10 @@
 #include <utility>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/io/text/text_words.hpp"
 
 namespace odosplat {
 namespace {
-
-constexpr std::string_view blanks = " \t\r";
 
 template <typename T>
 T load(const char* bytes, bool swap) {

@@ -31,12 +31,12 @@ constexpr std::array<TypeNames, 8> types{{{"char", "int8", 1},
 static_assert(types.size() == std::variant_size_v<PlyColumn>);
 
 // Far above any real header; they stop the reading of binary data without line ends early.
-constexpr std::size_t max_line = 1 << 14;
-constexpr std::size_t max_lines = 1 << 14;
+constexpr std::size_t max_header_line = 1 << 14;
+constexpr std::size_t max_header_lines = 1 << 14;
 
-class HeaderReader {
+class PlyHeaderReader {
  public:
-  HeaderReader(const std::string& name, std::istream& in) : name_(name), in_(in) {}
+  PlyHeaderReader(const std::string& name, std::istream& in) : name_(name), in_(in) {}
 
   PlyHeader read() {
     const std::string first = next_line();
@@ -73,11 +73,11 @@ class HeaderReader {
     char c = 0;
     while (in_.get(c) && c != '\n') {
       line.push_back(c);
-      if (line.size() > max_line) throw InputError(name_, "is not a PLY file");
+      if (line.size() > max_header_line) throw InputError(name_, "is not a PLY file");
     }
     if (!in_) throw InputError(name_, header_.lines == 0 ? "is not a PLY file" : "ends within the header");
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (++header_.lines > max_lines) fail("the header is too long");
+    if (++header_.lines > max_header_lines) fail("the header is too long");
     return line;
   }
 
@@ -156,6 +156,6 @@ std::size_t ply_size(PlyType type) { return types[type].size; }
 const char* ply_type_name(PlyType type) { return types[type].usual; }
 PlyColumn make_ply_column(PlyType type) { return column_of(type, std::make_index_sequence<types.size()>()); }
 
-PlyHeader read_ply_header(const std::string& name, std::istream& in) { return HeaderReader(name, in).read(); }
+PlyHeader read_ply_header(const std::string& name, std::istream& in) { return PlyHeaderReader(name, in).read(); }
 
 }  // namespace odosplat

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
 namespace odosplat {
@@ -58,11 +58,7 @@ class Pdf {
   std::string finish() const {
     const std::string count = std::to_string(starts_.size() + 1);
     std::string file = text_ + "xref\n0 " + count + "\n0000000000 65535 f \n";
-    for (const std::size_t start : starts_) {
-      char line[40];
-      std::snprintf(line, sizeof(line), "%010zu 00000 n \n", start);
-      file += line;
-    }
+    for (const std::size_t start : starts_) file += formatted("%010zu 00000 n \n", start);
     return file + "trailer\n<< /Size " + count + " /Root 1 0 R >>\nstartxref\n" + std::to_string(text_.size()) +
            "\n%%EOF\n";
   }
@@ -77,22 +73,19 @@ std::string pdf_of(const cv::Mat3b& rgb) {
   const std::string width = std::to_string(rgb.cols);
   const std::string height = std::to_string(rgb.rows);
   // A point is 1/72 inch.
-  char w[32];
-  char h[32];
-  std::snprintf(w, sizeof(w), "%.2f", 0.75 * rgb.cols);
-  std::snprintf(h, sizeof(h), "%.2f", 0.75 * rgb.rows);
-  const std::string size = std::string(w) + " " + h;
+  const std::string w = formatted("%.2f", 0.75 * rgb.cols);
+  const std::string h = formatted("%.2f", 0.75 * rgb.rows);
   Pdf pdf;
   pdf.add("<< /Type /Catalog /Pages 2 0 R >>");
   pdf.add("<< /Type /Pages /Kids [3 0 R] /Count 1 >>");
-  pdf.add("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 " + size +
+  pdf.add("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 " + w + " " + h +
           "] /Resources << /XObject << /Picture 4 0 R >> >> /Contents 5 0 R >>");
   pdf.add_stream("/Type /XObject /Subtype /Image /Width " + width + " /Height " + height +
                      " /ColorSpace /DeviceRGB /BitsPerComponent 8 /Filter /FlateDecode /DecodeParms << /Predictor 15 "
                      "/Colors 3 /BitsPerComponent 8 /Columns " +
                      width + " >>",
                  compressed_rows(encoded(".png", rgb)));
-  pdf.add_stream("", "q " + std::string(w) + " 0 0 " + h + " 0 0 cm /Picture Do Q");
+  pdf.add_stream("", "q " + w + " 0 0 " + h + " 0 0 cm /Picture Do Q");
   return pdf.finish();
 }
 

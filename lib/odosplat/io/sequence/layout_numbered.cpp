@@ -88,7 +88,7 @@ std::string sevenscenes_folder(const std::string& path) {
   return found;
 }
 
-std::string parent_of(const std::string& path) {
+std::string folder_above(const std::string& path) {
   const fs::path absolute = fs::absolute(path).lexically_normal();
   return (absolute.has_filename() ? absolute : absolute.parent_path()).parent_path().string();
 }
@@ -182,7 +182,7 @@ SequenceIndex index_sevenscenes(const std::string& path, const SequenceOptions& 
   const std::string folder = sevenscenes_folder(path);
   if (folder.empty()) throw InputError(path, "holds no frame-*.color.png and no seq-*");
   const CameraFile published = sevenscenes_camera();
-  choose_camera(options, {folder, parent_of(folder)}, published, "the published cameras of 7-Scenes",
+  choose_camera(options, {folder, folder_above(folder)}, published, "the published cameras of 7-Scenes",
                 published.depth_scale, index);
   NumberedFiles files;
   files.color = numbered_images(folder, is_frame_color);
@@ -212,13 +212,13 @@ SequenceIndex index_replica(const std::string& path, const SequenceOptions& opti
   SequenceIndex index;
   std::optional<CameraFile> own;
   std::string own_name;
-  for (const std::string& folder : {path, parent_of(path)}) {
+  for (const std::string& folder : {path, folder_above(path)}) {
     const std::string candidate = join(folder, "cam_params.json");
     if (own || !options.camera_file.empty() || !file_exists(candidate)) continue;
     own = read_replica_camera(candidate);
     own_name = candidate;
   }
-  choose_camera(options, {path, parent_of(path)}, own, own_name, 6553.5, index);
+  choose_camera(options, {path, folder_above(path)}, own, own_name, 6553.5, index);
   const std::string results = join(path, "results");
   NumberedFiles files;
   files.color = numbered_images(results, [](const std::string& name) { return name.starts_with("frame"); });

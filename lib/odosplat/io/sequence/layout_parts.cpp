@@ -93,7 +93,8 @@ std::optional<SE3> pose_at(const Trajectory& trajectory, double t) {
   if (nearest == nullptr) return std::nullopt;
   const double distance = std::abs(nearest->time - t);
   if (distance <= same_stamp) return nearest->T_world_camera;
-  if (last != nullptr && next != nullptr && next->time - last->time <= largest_bracket) {
+  // Poses at 10 Hz are 0.1 s apart but for rounding.
+  if (last != nullptr && next != nullptr && next->time - last->time <= largest_bracket + same_stamp) {
     return interpolate(last->T_world_camera, next->T_world_camera, (t - last->time) / (next->time - last->time));
   }
   if (distance <= nearest_pose) return nearest->T_world_camera;

@@ -3,12 +3,13 @@
 // Folders of images without any list, and videos; a camera file gives the camera and the rate.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <utility>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/io/image/size_text.hpp"
 #include "odosplat/io/sequence/layout_parts.hpp"
 #include "odosplat/io/sequence/layouts.hpp"
 #include "odosplat/io/sequence/sequence_index.hpp"
@@ -26,8 +27,6 @@ std::vector<std::string> image_names(const std::string& path) {
   return names;
 }
 
-std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
-
 // Phones store videos in landscape format with a rotation for display. The images are read rotated, so the camera file
 // must describe the rotated images.
 void check_turned(const std::string& path, const VideoReader& video, const SequenceIndex& index) {
@@ -37,8 +36,8 @@ void check_turned(const std::string& path, const VideoReader& video, const Seque
   const std::string degrees = std::to_string(90 * video.quarters()) + " degrees clockwise";
   const bool turned_camera = camera.width == shown.height && camera.height == shown.width;
   if (turned_camera && camera.width != camera.height) {
-    throw InputError(path, "is shown turned by " + degrees + ", as " + size_text(shown.width, shown.height) + "; " +
-                               index.camera_source + " is for " + size_text(camera.width, camera.height) +
+    throw InputError(path, "is shown turned by " + degrees + ", as " + size_text(shown) + "; " + index.camera_source +
+                               " is for " + size_text({camera.width, camera.height}) +
                                ": calibrate with the images as they are shown");
   }
   // In these cases the image size does not show whether the camera file is for rotated images.
@@ -55,10 +54,8 @@ void drop_declared_rate(const std::string& path, SequenceIndex& index) {
   const double seconds = index.frames.back().time - index.frames.front().time;
   const double rate = static_cast<double>(index.frames.size() - 1) / seconds;
   if (std::abs(rate - declared) <= rate_tolerance * rate) return;
-  char text[96];
-  std::snprintf(text, sizeof(text), " says %.3f frames per second, the video's stamps %.3f: the stamps count", declared,
-                rate);
-  log_warning(path + ": " + index.camera_source + text);
+  log_warning(path + ": " + index.camera_source +
+              formatted(" says %.3f frames per second, the video's stamps %.3f: the stamps count", declared, rate));
 }
 
 }  // namespace

@@ -116,10 +116,11 @@ std::map<long long, SE3> icl_poses(const std::string& folder) {
 // Warns if no image gets a pose, which usually means that the stamps of images and poses are in different units.
 void warn_if_unposed(const std::string& truth, const SequenceIndex& index) {
   if (index.truth.empty()) return;
-  NamedStamps images{"the images", {}};
+  const double offset = index.camera.time_offset;
+  NamedStamps images{offset == 0.0 ? "the images" : "the images (with time_offset)", {}};
   for (const FrameFiles& frame : index.frames) {
     if (frame.T_world_camera) return;
-    images.times.push_back(frame.time);
+    images.times.push_back(frame.time + offset);
   }
   NamedStamps poses{"the poses", {}};
   for (const StampedPose& pose : index.truth) poses.times.push_back(pose.time);
@@ -141,11 +142,16 @@ SequenceIndex index_tum(const std::string& path, const SequenceOptions& options)
   if (!file_exists(truth)) return index;
   const PoseFile poses = read_pose_file(truth);
   index.truth = poses.poses;
+  index.poses_by_time = true;
+  const double offset = index.camera.time_offset;
+  const double depth_offset = index.camera.depth_time_offset();
   for (FrameFiles& frame : index.frames) {
-    // No interpolation at a stamp for which the file explicitly has an invalid pose.
+    // No interpolation at a stamp for which the file explicitly has an invalid pose. With an offset the image's own
+    // stamp counts too: else poses around it would be interpolated over the invalid one.
     if (has_time(poses.times_without_pose, frame.time)) continue;
-    frame.T_world_camera = pose_at(index.truth, frame.time);
-    if (!frame.depth.empty()) frame.T_world_depth = pose_at(index.truth, frame.depth_time);
+    if (offset != 0.0 && has_time(poses.times_without_pose, frame.time + offset)) continue;
+    frame.T_world_camera = pose_at(index.truth, frame.time + offset);
+    if (!frame.depth.empty()) frame.T_world_depth = pose_at(index.truth, frame.depth_time + depth_offset);
   }
   warn_if_unposed(truth, index);
   return index;

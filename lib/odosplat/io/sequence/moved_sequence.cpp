@@ -53,7 +53,7 @@ std::size_t write_moved_sequence(const std::string& folder, const Sequence& sequ
     depths += sequence.depth_time_text(i) + " " + listed_path(sequence.depth_file(i)) + "\n";
   }
   if (frames == 0) throw InputError(sequence.name(), "no frame has a pose");
-  Trajectory truth = sequence.truth();
+  Trajectory truth = sequence.listed_poses();
   for (StampedPose& pose : truth) pose.T_world_camera = moved * pose.T_world_camera;
   CameraFile camera = sequence.camera_file();
   camera.depth_scale /= moved.scale;

@@ -3,7 +3,6 @@
 #include "odosplat/io/sequence/sequence.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -14,6 +13,7 @@
 #include "odosplat/camera/register_depth.hpp"
 #include "odosplat/camera/undistort.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/near_origin.hpp"
 #include "odosplat/core/stamp_guess.hpp"
@@ -22,6 +22,7 @@
 #include "odosplat/io/camera/camera_check.hpp"
 #include "odosplat/io/camera/photometric.hpp"
 #include "odosplat/io/image/image_file.hpp"
+#include "odosplat/io/image/size_text.hpp"
 #include "odosplat/io/sequence/layout_parts.hpp"
 #include "odosplat/io/sequence/layouts.hpp"
 #include "odosplat/io/sequence/sequence_index.hpp"
@@ -64,8 +65,6 @@ double median_fps(const std::vector<FrameFiles>& frames) {
   return 1.0 / upper_median(std::move(steps));
 }
 
-std::string size_text(const cv::Size& size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
-
 std::string last_part(const std::string& path) {
   const std::filesystem::path full = std::filesystem::absolute(path).lexically_normal();
   return (full.has_filename() ? full : full.parent_path()).filename().string();
@@ -83,6 +82,7 @@ struct Sequence::Data {
   std::string layout;
   SequenceIndex index;
   double fps = default_fps;
+  Trajectory truth_of_images;  // with a time_offset of the images: their poses, at their stamps; else empty
   bool reflected = false;
   std::int64_t max_image_pixels = ImageLimit::default_max_pixels;
   Undistorter undistorter;
@@ -95,9 +95,7 @@ struct Sequence::Data {
   void say_assumed_depth_scale() const {
     if (index.camera.has_depth_scale) return;
     std::call_once(depth_scale_said, [this] {
-      char text[64];
-      std::snprintf(text, sizeof(text), "%g", index.camera.depth_scale);
-      log_warning(index.camera_source + " names no depth_scale: " + text +
+      log_warning(index.camera_source + " names no depth_scale: " + number_text(index.camera.depth_scale) +
                   " units per metre are assumed, as is usual for the layout " + layout);
     });
   }
@@ -173,20 +171,43 @@ struct Sequence::Data {
     photometric = PhotometricCorrection(gamma, vignette);
   }
 
-  /// Sets the pose of every depth image: at its own time, moved by the depth camera's time offset.
-  void set_depth_poses() {
-    const double offset = index.camera.depth_camera ? index.camera.depth_camera->time_offset : 0.0;
-    std::size_t unknown = 0;
+  /// Sets the poses of all images and depth images, and the true poses by the images' stamps.
+  void set_poses() {
+    const double offset = index.camera.time_offset;
+    const double depth_offset = index.camera.depth_time_offset();
+    std::size_t unposed = 0;
+    std::size_t unposed_depth = 0;
     for (FrameFiles& f : index.frames) {
-      if (!f.T_world_depth) f.T_world_depth = f.T_world_camera;
-      if (offset == 0.0 || f.depth.empty() || !f.T_world_depth) continue;
-      const double stamp = f.depth_time_text.empty() ? f.time : f.depth_time;
-      f.T_world_depth = f.T_world_camera ? pose_at(index.truth, stamp + offset) : std::nullopt;
-      unknown += f.T_world_depth ? 0 : 1;
+      if (!index.poses_by_time && f.T_world_camera) {
+        const SE3 at_stamp = *f.T_world_camera;
+        const auto pose_after = [&](double seconds) {
+          return seconds == 0.0 ? std::optional<SE3>(at_stamp) : pose_at(index.truth, f.time + seconds);
+        };
+        f.T_world_depth = pose_after(depth_offset);
+        f.T_world_camera = pose_after(offset);
+      }
+      if (!f.T_world_camera && offset != 0.0 && pose_at(index.truth, f.time)) ++unposed;
+      if (f.depth.empty()) {
+        f.T_world_depth = f.T_world_camera;
+      } else if (depth_offset == offset) {
+        if (!f.T_world_depth) f.T_world_depth = f.T_world_camera;
+      } else if (!f.T_world_camera) {
+        f.T_world_depth.reset();
+      } else {
+        unposed_depth += f.T_world_depth ? 0 : 1;
+      }
     }
-    if (unknown > 0) {
-      log_warning(name + ": " + std::to_string(unknown) +
-                  " depth images have no pose at their time, which time_offset of depth_camera moves");
+    if (unposed_depth > 0) {
+      log_warning(name + ": " + std::to_string(unposed_depth) + " depth images have no pose at their time" +
+                  (depth_offset == 0.0 ? "" : ", which time_offset of depth_camera moves"));
+    }
+    if (offset == 0.0 || index.truth.empty()) return;
+    if (unposed > 0) {
+      log_warning(name + ": " + std::to_string(unposed) + " of " + std::to_string(index.frames.size()) +
+                  " images have no pose at their time, which time_offset of " + index.camera_source + " moves");
+    }
+    for (const FrameFiles& f : index.frames) {
+      if (f.T_world_camera) truth_of_images.push_back({f.time, *f.T_world_camera, f.time_text});
     }
   }
 
@@ -249,7 +270,7 @@ Sequence Sequence::open(const std::string& path, const SequenceOptions& options)
     }
     for (StampedPose& pose : index.truth) pose.T_world_camera = reflected(pose.T_world_camera);
   }
-  data->set_depth_poses();
+  data->set_poses();
   data->require_near();
   const double listed_fps = median_fps(index.frames);
   data->fps = index.camera.fps > 0.0 ? index.camera.fps : listed_fps;
@@ -284,9 +305,13 @@ double Sequence::depth_scale() const { return data_->index.camera.depth_scale; }
 double Sequence::fps() const { return data_->fps; }
 std::size_t Sequence::size() const { return data_->index.frames.size(); }
 double Sequence::time(std::size_t i) const { return data_->frame(i).time; }
-const Trajectory& Sequence::truth() const { return data_->index.truth; }
+const Trajectory& Sequence::listed_poses() const { return data_->index.truth; }
 bool Sequence::has_depth(std::size_t i) const { return !data_->frame(i).depth.empty(); }
 GrayImage Sequence::gray(std::size_t i) const { return to_gray(color(i)); }
+
+const Trajectory& Sequence::truth() const {
+  return data_->index.camera.time_offset == 0.0 ? data_->index.truth : data_->truth_of_images;
+}
 
 bool Sequence::has_exposures() const { return !data_->exposures.empty(); }
 
@@ -315,6 +340,24 @@ CameraFile Sequence::camera_file() const {
   file.fps = data_->fps;
   file.vignette = data_->vignette_file();
   return file;
+}
+
+CameraFile Sequence::declared_camera() const {
+  CameraFile file = camera_file();
+  file.fy_sign = fy_sign();
+  file.fps = data_->index.camera.fps;
+  if (!file.vignette.empty()) file.vignette = std::filesystem::absolute(file.vignette).lexically_normal().string();
+  return file;
+}
+
+bool Sequence::poses_by_time() const { return data_->index.poses_by_time; }
+
+std::size_t Sequence::posed_with_offset(double time_offset) const {
+  std::size_t posed = 0;
+  for (const FrameFiles& frame : data_->index.frames) {
+    posed += pose_at(data_->index.truth, frame.time + time_offset) ? 1 : 0;
+  }
+  return posed;
 }
 
 const std::string& Sequence::color_file(std::size_t i) const { return data_->frame(i).color; }

@@ -62,7 +62,13 @@ namespace odosplat {
 /// reflected, T' = F T F with F = diag(1, -1, 1), so that they belong to camera(), whose fy is positive.
 ///
 /// Depth images of another camera (depth_camera in the camera file) are registered to the colour images as they are
-/// read (registered_depth); their own time offset is part of T_world_depth.
+/// read (registered_depth).
+///
+/// With a time_offset in the camera file an image has the pose of its stamp plus time_offset, looked up in the list of
+/// poses as in tum above; in layouts whose poses have no times of their own, in the images' poses at the images' times.
+/// It has none where the list has none within these limits, and where the data set says that the image has no pose; one
+/// warning gives the number of these images. Depth images have the same offset; those of a depth_camera have that of
+/// depth_camera instead. All stamps stay those of the files.
 ///
 /// Photometric calibration is applied before that (PhotometricCorrection): vignette and gamma of the camera file, and
 /// exposure times of exposures.txt or DSO's times.txt in the sequence's folder, so that colours are those of a camera
@@ -92,6 +98,14 @@ class Sequence {
   /// All that is known of the camera, including the lens distortion of the image files; fy_sign is 1 because the poses
   /// have been reflected. The path of a vignette is relative to the working directory or absolute.
   CameraFile camera_file() const;
+  /// The camera file's content as declared, or the layout's camera: fy_sign and fps as declared (0: no fps), the path of a
+  /// vignette absolute.
+  CameraFile declared_camera() const;
+  /// True if images get their poses by time: the data set lists poses with stamps. Else the times of the images may be made
+  /// up (their number by the frame rate).
+  bool poses_by_time() const;
+  /// Number of images that would have a pose if the camera file had this time_offset [s]. Precondition: poses_by_time().
+  std::size_t posed_with_offset(double time_offset) const;
   /// Frames per second: from the camera file, else 1 / (median step of time).
   double fps() const;
 
@@ -99,14 +113,19 @@ class Sequence {
   double time(std::size_t i) const;  // [s]
   /// The time as written in the list, else printed with 6 decimals.
   std::string time_text(std::size_t i) const;
+  /// Pose of the camera when the image was taken: at its stamp plus the camera file's time_offset.
   std::optional<SE3> T_world_camera(std::size_t i) const;
-  /// The same at the time of the frame's depth image: sensors that capture colour and depth alternately (TUM) have
-  /// stamps up to 20 ms apart, in which points can shift by centimetres during a fast turn. With a time offset of the
-  /// depth camera: at the stamp of the depth image plus that. Equal to T_world_camera(i) if there is only one stamp and
-  /// no offset.
+  /// The same when the frame's depth image was taken: sensors that capture colour and depth alternately (TUM) have
+  /// stamps up to 20 ms apart, in which points can shift by centimetres during a fast turn. At the stamp of the depth
+  /// image plus the time_offset of the colour images or, with a depth_camera, plus that of depth_camera alone; if these
+  /// differ, none where the image has none. Equal to T_world_camera(i) if stamp and offset are the same or there is no
+  /// depth image.
   std::optional<SE3> T_world_depth(std::size_t i) const;
-  /// All poses of the data set, at their own rate, reflected like T_world_camera.
+  /// True poses by the images' stamps, to compare estimates with, reflected like T_world_camera: listed_poses(); with a
+  /// time_offset of the images the poses that the images have, at the images' stamps.
   const Trajectory& truth() const;
+  /// All poses of the data set, at their own times and rate, reflected like T_world_camera.
+  const Trajectory& listed_poses() const;
 
   /// True if the sequence's folder lists exposure times.
   bool has_exposures() const;

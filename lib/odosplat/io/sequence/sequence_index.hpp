@@ -24,7 +24,7 @@ struct FrameFiles {
   std::string color;      // full path; empty in videos
   std::string depth;      // full path; empty: none
   std::optional<SE3> T_world_camera;
-  // Pose at the time of the depth image if that has a stamp of its own; none: as T_world_camera.
+  // Pose at the time of the depth image if that has a stamp of its own; none: see Sequence::T_world_depth.
   std::optional<SE3> T_world_depth;
   double depth_time = 0.0;      // the stamp of the depth image, if depth_time_text is set
   std::string depth_time_text;  // the same as written in the list; empty: the colour image's stamp applies
@@ -42,6 +42,9 @@ struct SequenceIndex {
   std::string camera_source;  // for errors: the camera file or the name of the published calibration
   std::vector<FrameFiles> frames;
   Trajectory truth;
+  // Whether the frames' poses were looked up in `truth` by time, with the camera's time offsets. Else a frame's pose is
+  // the one that the data set gives with the image: that at its stamp, without an offset.
+  bool poses_by_time = false;
   SparsePoints sparse_points;
   std::shared_ptr<const VideoReader> video;  // instead of colour files
 };

@@ -13,7 +13,6 @@ namespace odosplat {
 namespace {
 
 constexpr std::size_t max_line = std::size_t{1} << 16;
-constexpr std::string_view blanks = " \t\r";
 
 }  // namespace
 

@@ -10,8 +10,6 @@
 namespace odosplat {
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
-
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }

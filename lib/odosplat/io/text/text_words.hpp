@@ -9,7 +9,10 @@
 
 namespace odosplat {
 
-/// Splitting text into lines and words, for the readers of lists. Blanks are space, tab and carriage return.
+/// Splitting text into lines and words, for the readers of lists.
+
+/// Space, tab and carriage return.
+inline constexpr std::string_view blanks = " \t\r";
 
 /// UTF-8 byte-order mark, with which some editors start a file.
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";

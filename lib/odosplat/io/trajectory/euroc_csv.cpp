@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <vector>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/io/text/text_words.hpp"
 
 namespace odosplat {
@@ -84,11 +84,8 @@ std::int64_t whole_time(const std::string& name, std::size_t line, std::string_v
 }
 
 std::string seconds_text(std::int64_t time) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%s%lld.%09lld", time < 0 ? "-" : "",
-                static_cast<long long>(std::abs(time / nanoseconds)),
-                static_cast<long long>(std::abs(time % nanoseconds)));
-  return text;
+  return formatted("%s%lld.%09lld", time < 0 ? "-" : "", static_cast<long long>(std::abs(time / nanoseconds)),
+                   static_cast<long long>(std::abs(time % nanoseconds)));
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/io/trajectory/similarity_file.hpp"
 
-#include <cstdio>
 #include <string_view>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/io/text/text_words.hpp"
 
 namespace odosplat {
@@ -39,10 +39,8 @@ Similarity parse_similarity(const std::string& name, const std::string& text) {
 std::string similarity_text(const Similarity& similarity) {
   const Eigen::Vector3d& t = similarity.T_target_source.translation();
   const Eigen::Quaterniond& q = similarity.T_target_source.rotation();
-  char text[256];
-  std::snprintf(text, sizeof(text), "%.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g", similarity.scale, t.x(), t.y(),
-                t.z(), q.x(), q.y(), q.z(), q.w());
-  return text;
+  return formatted("%.12g %.12g %.12g %.12g %.12g %.12g %.12g %.12g", similarity.scale, t.x(), t.y(), t.z(), q.x(),
+                   q.y(), q.z(), q.w());
 }
 
 PointPairs parse_point_pairs(const std::string& name, const std::string& text) {

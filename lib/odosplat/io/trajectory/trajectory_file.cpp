@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/text/text_words.hpp"
@@ -51,14 +51,14 @@ class Lines {
 
  private:
   void add(std::size_t number, std::string_view text) {
-    constexpr std::string_view blanks = " \t\r,";
+    constexpr std::string_view separators = " \t\r,";
     Line line;
     line.number = number;
     while (true) {
-      const std::size_t start = text.find_first_not_of(blanks);
+      const std::size_t start = text.find_first_not_of(separators);
       if (start == std::string_view::npos || (line.values.empty() && text[start] == '#')) break;
       text.remove_prefix(start);
-      std::string_view word = text.substr(0, std::min(text.find_first_of(blanks), text.size()));
+      std::string_view word = text.substr(0, std::min(text.find_first_of(separators), text.size()));
       text.remove_prefix(word.size());
       if (line.values.empty()) line.first = word;
       if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
@@ -276,10 +276,8 @@ void write_trajectory(const std::string& path, const Trajectory& trajectory, Dur
   for (const StampedPose& pose : trajectory) {
     const Eigen::Vector3d& t = pose.T_world_camera.translation();
     const Eigen::Quaterniond& q = pose.T_world_camera.rotation();
-    char line[256];
-    std::snprintf(line, sizeof(line), " %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", t.x(), t.y(), t.z(), q.x(), q.y(), q.z(),
-                  q.w());
-    text += pose.stamp() + line;
+    text += pose.stamp() +
+            formatted(" %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
   }
   write_file_atomically(path, text, durability);
 }

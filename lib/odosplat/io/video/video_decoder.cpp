@@ -19,6 +19,7 @@ extern "C" {
 #include <vector>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 namespace {
@@ -96,9 +97,7 @@ int quarters_of(const std::string& path, const AVStream& stream) {
   const double clockwise = -av_display_rotation_get(m);
   const double quarters = std::round(clockwise / 90.0);
   if (!(std::abs(clockwise - 90.0 * quarters) < 0.1)) {
-    char degrees[32];
-    std::snprintf(degrees, sizeof(degrees), "%.1f", clockwise);
-    throw InputError(path, std::string("is to be shown turned by ") + degrees + " degrees, which is no multiple of 90");
+    throw InputError(path, formatted("is to be shown turned by %.1f degrees, which is no multiple of 90", clockwise));
   }
   return static_cast<int>(quarters + 4.0) % 4;
 }

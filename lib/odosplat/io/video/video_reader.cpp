@@ -3,21 +3,20 @@
 #include "odosplat/io/video/video_reader.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <mutex>
 #include <optional>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/image/size_text.hpp"
 #include "odosplat/io/video/video_decoder.hpp"
 
 namespace odosplat {
 namespace {
 
 constexpr double same_step = 1e-3;  // [s] containers round their stamps
-
-std::string size_text(const cv::Size& size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
 
 // The result of a pass through the whole file.
 struct Pass {
@@ -41,19 +40,13 @@ Pass read_all(const std::string& path, VideoDecoder& decoder) {
   return pass;
 }
 
-std::string seconds_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f s", seconds);
-  return text;
-}
-
 // Logs one line about images that the file declares but that are missing or damaged.
 void warn_of_damage(const std::string& path, const VideoDecoder::Damage& damage, std::size_t frames) {
   if (!damage.any()) return;
   std::string faults;
   const auto add = [&faults](const std::string& fault) { faults += (faults.empty() ? "" : ", ") + fault; };
   if (damage.missing > 0) add(std::to_string(damage.missing) + " that the file declares are missing");
-  if (damage.missing_s > 0.0) add("it ends " + seconds_text(damage.missing_s) + " before its header says");
+  if (damage.missing_s > 0.0) add(formatted("it ends %.2f s before its header says", damage.missing_s));
   if (damage.undecoded > 0) add(std::to_string(damage.undecoded) + " cannot be decoded and are left out");
   if (damage.corrupt > 0) add(std::to_string(damage.corrupt) + " are decoded from damaged data");
   log_warning(path + ": is damaged or cut off: " + std::to_string(frames) + " images are read, " + faults +

@@ -5,9 +5,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
 namespace {
@@ -140,34 +140,25 @@ std::string CameraMisfit::likely_cause(const Camera& camera) const {
   const CameraCorrection found = correction();
   const double pixels = std::abs(error.pixels);
   const bool positive = error.pixels > 0.0;
-  char text[160] = "";
+  const auto shifted = [pixels](const char* where) {
+    return formatted("the images look as if the principal point were %.1f px further %s than in the camera file",
+                     pixels, where);
+  };
   switch (error.number) {
     case 0:
-      std::snprintf(text, sizeof(text),
-                    "the images look as if the focal length were %.1f %% %s than in the camera file",
-                    100.0 * std::abs(found.focal), positive ? "longer" : "shorter");
-      break;
+      return formatted("the images look as if the focal length were %.1f %% %s than in the camera file",
+                       100.0 * std::abs(found.focal), positive ? "longer" : "shorter");
     case 1:
-      std::snprintf(text, sizeof(text),
-                    "the images look as if the principal point were %.1f px further %s than in the camera file", pixels,
-                    positive ? "right" : "left");
-      break;
+      return shifted(positive ? "right" : "left");
     case 2:
-      std::snprintf(text, sizeof(text),
-                    "the images look as if the principal point were %.1f px further %s than in the camera file", pixels,
-                    positive ? "down" : "up");
-      break;
+      return shifted(positive ? "down" : "up");
     case 3:
-      std::snprintf(text, sizeof(text),
-                    "the images look distorted otherwise than the camera file says: by %.1f px at half their width",
-                    error.pixels);
-      break;
+      return formatted("the images look distorted otherwise than the camera file says: by %.1f px at half their width",
+                       error.pixels);
     default:
-      std::snprintf(text, sizeof(text),
-                    "the images look as if their rows were taken one after the other, within %.0f ms%s",
-                    1000.0 * std::abs(found.readout), positive ? " (rolling shutter)" : ", the last one first");
+      return formatted("the images look as if their rows were taken one after the other, within %.0f ms%s",
+                       1000.0 * std::abs(found.readout), positive ? " (rolling shutter)" : ", the last one first");
   }
-  return text;
 }
 
 }  // namespace odosplat

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "odosplat/odometry/confirm/camera_correction.hpp"
+#include "odosplat/odometry/confirm/misfit_system.hpp"
 #include "odosplat/odometry/confirm/rendered_view.hpp"
 #include "odosplat/odometry/frame/frame.hpp"
 

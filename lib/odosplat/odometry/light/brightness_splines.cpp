@@ -11,15 +11,15 @@
 namespace odosplat {
 namespace {
 
-constexpr int reweightings = 3;
+constexpr int spline_reweightings = 3;
 
-struct Fit {
+struct SplineFit {
   Eigen::VectorXd coefficients;
   double cost = 0.0;  // robust
 };
 
 /// splines: their number, 0: the alignment alone.
-Fit fit(const std::vector<BrightnessSample>& samples, int splines, const CurveFitOptions& options) {
+SplineFit fit_splines(const std::vector<BrightnessSample>& samples, int splines, const CurveFitOptions& options) {
   const Eigen::Index size = 8 + splines;
   // Weight of the squared difference of neighbouring coefficients.
   const double alike = options.noise * options.noise / (options.sigma * options.sigma);
@@ -29,7 +29,7 @@ Fit fit(const std::vector<BrightnessSample>& samples, int splines, const CurveFi
     if (splines > 0) r += sample.by_curve * sample.curve.value.dot(x.segment<4>(8 + sample.curve.first));
     return std::abs(r);
   };
-  for (int pass = 0; pass < reweightings; ++pass) {
+  for (int pass = 0; pass < spline_reweightings; ++pass) {
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(size, size);
     Eigen::VectorXd g = Eigen::VectorXd::Zero(size);
     for (const BrightnessSample& sample : samples) {
@@ -56,7 +56,7 @@ Fit fit(const std::vector<BrightnessSample>& samples, int splines, const CurveFi
     const Eigen::MatrixXd scaled = scale.asDiagonal() * H * scale.asDiagonal();
     x = -scale.cwiseProduct(scaled.ldlt().solve(scale.cwiseProduct(g)));
   }
-  Fit result;
+  SplineFit result;
   result.coefficients = x.tail(splines);
   for (const BrightnessSample& sample : samples) {
     const double r = residual(sample);
@@ -116,8 +116,8 @@ std::vector<BrightnessSample> brightness_samples(const TrackingReference& refere
 }
 
 std::optional<Eigen::VectorXd> fit_curve(const std::vector<BrightnessSample>& samples, const CurveFitOptions& options) {
-  const Fit without = fit(samples, 0, options);
-  const Fit with = fit(samples, options.spans + 3, options);
+  const SplineFit without = fit_splines(samples, 0, options);
+  const SplineFit with = fit_splines(samples, options.spans + 3, options);
   if (!with.coefficients.allFinite() || !(with.cost < options.explained * without.cost)) return {};
   return with.coefficients;
 }

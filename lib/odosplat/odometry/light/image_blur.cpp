@@ -12,7 +12,7 @@
 namespace odosplat {
 namespace {
 
-constexpr int reweightings = 3;
+constexpr int blur_reweightings = 3;
 constexpr std::size_t min_samples = 100;
 
 using Vector11d = Eigen::Matrix<double, 11, 1>;
@@ -43,15 +43,15 @@ std::vector<Row> rows_of(const GradientImage& host, const std::vector<Brightness
   return rows;
 }
 
-struct Fit {
+struct BlurFit {
   Vector11d x = Vector11d::Zero();
   double cost = 0.0;  // robust
 };
 
 /// unknowns: 8 for the alignment alone, or 11.
-Fit fit(const std::vector<Row>& rows, Eigen::Index unknowns, double huber) {
-  Fit result;
-  for (int pass = 0; pass < reweightings; ++pass) {
+BlurFit fit_blur(const std::vector<Row>& rows, Eigen::Index unknowns, double huber) {
+  BlurFit result;
+  for (int pass = 0; pass < blur_reweightings; ++pass) {
     Matrix11d H = Matrix11d::Zero();
     Vector11d g = Vector11d::Zero();
     for (const Row& row : rows) {
@@ -85,8 +85,8 @@ std::optional<Eigen::Matrix2d> estimate_blur(const GradientImage& host, const st
   if (!options.enabled) return {};
   const std::vector<Row> rows = rows_of(host, samples, gain);
   if (rows.size() < min_samples) return {};
-  const Fit without = fit(rows, 8, options.huber);
-  const Fit with = fit(rows, 11, options.huber);
+  const BlurFit without = fit_blur(rows, 8, options.huber);
+  const BlurFit with = fit_blur(rows, 11, options.huber);
   if (!with.x.allFinite() || !(with.cost < options.explained * without.cost)) return {};
   Eigen::Matrix2d covariance;
   covariance << with.x[8], with.x[9], with.x[9], with.x[10];

@@ -12,7 +12,7 @@
 namespace odosplat {
 namespace {
 
-constexpr int least_points = 100;  // in view
+constexpr int least_row_points = 100;  // in view
 
 CurveFitOptions curve_fit(const RowGainOptions& options) {
   return {options.spans, options.sigma, options.noise, options.huber, options.explained};
@@ -42,7 +42,7 @@ void RowGainOptions::check() const {
 RowGain estimate_row_gain(const TrackingReference& reference, const FramePyramid& target, const SE3& T_target_host,
                           const Brightness& brightness, const RowGainOptions& options) {
   std::vector<BrightnessSample> samples = brightness_samples(reference, target, T_target_host, brightness);
-  if (samples.size() < least_points) return {};
+  if (samples.size() < least_row_points) return {};
   for (BrightnessSample& sample : samples) {
     sample.curve = splines_at(sample.height, options.spans);
     sample.by_curve = -sample.expected;

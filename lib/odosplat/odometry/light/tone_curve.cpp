@@ -11,7 +11,7 @@
 namespace odosplat {
 namespace {
 
-constexpr int least_points = 300;  // in view
+constexpr int least_tone_points = 300;  // in view
 constexpr float steps = 255.0F;
 
 CurveFitOptions curve_fit(const ToneOptions& options) {
@@ -37,7 +37,7 @@ std::optional<ToneCurve> estimate_tone(const TrackingReference& reference, const
                                        const ToneOptions& options) {
   if (!options.enabled) return {};
   std::vector<BrightnessSample> samples = brightness_samples(reference, target, T_target_host, brightness);
-  if (samples.size() < least_points) return {};
+  if (samples.size() < least_tone_points) return {};
   for (BrightnessSample& sample : samples) {
     sample.curve = splines_at(sample.host, options.spans);
     sample.by_curve = -1.0;

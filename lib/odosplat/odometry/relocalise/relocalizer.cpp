@@ -5,9 +5,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/odometry/frame/least_size.hpp"
 
@@ -32,17 +32,16 @@ std::vector<std::size_t> best_of(std::size_t n, std::size_t most, const Value& v
 /// Why the map does not confirm a pose; empty: it does.
 std::string fault_of(const MapEvidence& evidence, double min_coverage, double min_score) {
   constexpr double much = 0.25;
-  char text[96] = "";
-  if (evidence.share < min_coverage) {
-    std::snprintf(text, sizeof(text), "the map covers %.0f %% of the view", 100.0 * evidence.share);
-  } else if (evidence.verdict == Confirmation::none) {
-    return "too few parts of the view have texture";
-  } else if (evidence.verdict != Confirmation::confirmed && evidence.against > much) {
-    std::snprintf(text, sizeof(text), "%.0f %% of what the image shows is not in the map", 100.0 * evidence.against);
-  } else if (evidence.verdict != Confirmation::confirmed || evidence.score < min_score) {
-    std::snprintf(text, sizeof(text), "image and map correlate by only %.2f", evidence.score);
+  if (evidence.share < min_coverage) return formatted("the map covers %.0f %% of the view", 100.0 * evidence.share);
+  if (evidence.verdict == Confirmation::none) return "too few parts of the view have texture";
+  const bool confirmed = evidence.verdict == Confirmation::confirmed;
+  if (!confirmed && evidence.against > much) {
+    return formatted("%.0f %% of what the image shows is not in the map", 100.0 * evidence.against);
   }
-  return text;
+  if (!confirmed || evidence.score < min_score) {
+    return formatted("image and map correlate by only %.2f", evidence.score);
+  }
+  return "";
 }
 
 }  // namespace
@@ -230,7 +229,6 @@ Relocalizer::Finalist Relocalizer::verify(const Candidate& candidate, const Fram
   finalist.candidate = candidate;
   const SE3 T_world_camera = candidate.T_world_camera();
   const ViewImages view = map_.render(index_->camera(), T_world_camera, {true, false});
-  const FramePyramid rendered = build_frame_pyramid(index_->camera(), to_gray(view.color), options_.smoothing);
   const ViewPatches patches(index_->camera(), {T_world_camera, view}, options_.smoothing, options_.confirmation);
   finalist.evidence = patches.compare(image, T_world_camera);
   finalist.fault = fault_of(finalist.evidence, options_.min_coverage, options_.min_score);
@@ -239,6 +237,7 @@ Relocalizer::Finalist Relocalizer::verify(const Candidate& candidate, const Fram
     finalist.fault = "too few points agree";
     return finalist;
   }
+  const FramePyramid rendered = build_frame_pyramid(index_->camera(), to_gray(view.color), options_.smoothing);
   const TrackingReference reference = reference_of(rendered, view);
   const Alignment alignment = aligner_.align(reference, image, SE3(), candidate.alignment.brightness, 1, 0);
   const Matrix6d covariance =

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "odosplat/cloud/length_units.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/parallel.hpp"
 
 namespace odosplat {
@@ -33,19 +33,11 @@ void ColorConsistencyOptions::check() const {
 }
 
 std::string GeometryHypothesis::words() const {
-  char text[160];
   if (inverted) return "the poses are inverted (camera from world instead of world from camera)";
-  if (unit != 1.0) {
-    std::snprintf(text, sizeof(text), "%s (%.4g times as large as the poses say)", unit_words(unit).c_str(), unit);
-    return text;
-  }
-  if (focal != 1.0) {
-    std::snprintf(text, sizeof(text), "the focal length is wrong (%.2f times the given one fits better)", focal);
-    return text;
-  }
-  std::snprintf(text, sizeof(text), "the cloud lies %.2f m off the frame of the poses (%+.2f %+.2f %+.2f m)",
-                offset.norm(), offset.x(), offset.y(), offset.z());
-  return text;
+  if (unit != 1.0) return formatted("%s (%.4g times as large as the poses say)", unit_words(unit).c_str(), unit);
+  if (focal != 1.0) return formatted("the focal length is wrong (%.2f times the given one fits better)", focal);
+  return formatted("the cloud lies %.2f m off the frame of the poses (%+.2f %+.2f %+.2f m)", offset.norm(), offset.x(),
+                   offset.y(), offset.z());
 }
 
 ColorConsistency::ColorConsistency(const PointCloud& cloud, TrainingViews& views,

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/upper_median.hpp"
 
 namespace odosplat {
@@ -35,12 +35,6 @@ std::vector<double> known(const std::vector<ViewQuality>& views, Member member) 
 double robust_deviation(std::vector<double> values, double middle) {
   for (double& value : values) value = std::abs(value - middle);
   return 1.4826 * upper_median(std::move(values), -1.0);
-}
-
-std::string printed(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
 }
 
 }  // namespace
@@ -120,7 +114,7 @@ MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage&
   q.coverage = coverage;
   q.consistency = consistency;
 
-  const std::string decibels = printed("%.1f dB", q.psnr_db) + " on the " + count_of(q.images) + " it was trained on";
+  const std::string decibels = formatted("%.1f dB", q.psnr_db) + " on the " + count_of(q.images) + " it was trained on";
   Judgement j;
   j.inconsistent = doubt || consistency > most_unexplained;
   j.unlike = !(q.psnr_db >= least_psnr_db) || q.depth_error_share > most_depth_share;
@@ -128,36 +122,36 @@ MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage&
   j.unseen = coverage.unseen_share > most_unseen_share;
   if (!(q.psnr_db >= least_psnr_db)) j.add("only " + decibels);
   if (j.inconsistent)
-    j.add("the images disagree on the colours of the cloud's points (" + printed("%.0f %%", 100.0 * consistency) +
+    j.add("the images disagree on the colours of the cloud's points (" + formatted("%.0f %%", 100.0 * consistency) +
           " of the variance)");
   if (q.depth_error_share > most_depth_share)
-    j.add("its depth is " + printed("%.1f %%", 100.0 * q.depth_error_share) + " off the cloud's");
+    j.add("its depth is " + formatted("%.1f %%", 100.0 * q.depth_error_share) + " off the cloud's");
   if (j.odd) j.add(std::to_string(q.odd_images) + " of " + count_of(q.images) + " disagree with the rest");
-  if (j.unseen) j.add("no image sees " + printed("%.0f %%", 100.0 * coverage.unseen_share) + " of the cloud");
+  if (j.unseen) j.add("no image sees " + formatted("%.0f %%", 100.0 * coverage.unseen_share) + " of the cloud");
   if (!j.faults.empty() && training.iterations != 0) {
     q.verdict = "doubtful: " + j.faults + likely_cause(q, j, doubt, training);
     return q;
   }
   if (training.iterations == 0) {
-    q.verdict = "not judged: no step of training was done (" + printed("%.1f dB", q.psnr_db) + " on " +
+    q.verdict = "not judged: no step of training was done (" + formatted("%.1f dB", q.psnr_db) + " on " +
                 count_of(q.images) + ")";
     if (j.inconsistent) q.verdict += likely_cause(q, j, doubt, {});
     return q;
   }
   if (q.images < least_images) {
     q.verdict = "not judged: it was trained on " + count_of(q.images) + " only, which a map of any geometry can fit (" +
-                printed("%.1f dB", q.psnr_db) + ")";
+                formatted("%.1f dB", q.psnr_db) + ")";
     return q;
   }
   q.good = true;
   q.verdict = "good: " + decibels;
   if (q.depth_error_m >= 0.0)
-    q.verdict += ", depth within " + printed("%.1f mm", 1000.0 * q.depth_error_m) + " of the cloud's";
+    q.verdict += ", depth within " + formatted("%.1f mm", 1000.0 * q.depth_error_m) + " of the cloud's";
   if (q.odd_images > 0)
     q.verdict +=
         ", but " + std::to_string(q.odd_images) + " of " + std::to_string(q.images) + " images disagree with the rest";
   if (coverage.unseen_share > 0.1)
-    q.verdict += ", but no image sees " + printed("%.0f %%", 100.0 * coverage.unseen_share) + " of the cloud";
+    q.verdict += ", but no image sees " + formatted("%.0f %%", 100.0 * coverage.unseen_share) + " of the cloud";
   return q;
 }
 

@@ -5,39 +5,30 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <sstream>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat {
-namespace {
-
-std::string printed(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
-}
-
-}  // namespace
 
 const std::array<const char*, 6> direction_names{"+x", "-x", "+y", "-y", "+z", "-z"};
 
 std::vector<std::string> MapQuality::to_lines() const {
   std::vector<std::string> lines{
       "quality_verdict " + verdict,
-      "quality_psnr_db " + printed("%.2f", psnr_db),
-      "quality_depth_error_m " + printed("%.5f", depth_error_m),
-      "quality_depth_error_share " + printed("%.5f", depth_error_share),
+      "quality_psnr_db " + formatted("%.2f", psnr_db),
+      "quality_depth_error_m " + formatted("%.5f", depth_error_m),
+      "quality_depth_error_share " + formatted("%.5f", depth_error_share),
       "quality_images " + std::to_string(images),
       "quality_odd_images " + std::to_string(odd_images),
-      "quality_color_inconsistency " + printed("%.3f", consistency),
-      "quality_unseen_share " + printed("%.4f", coverage.unseen_share),
-      "quality_images_a_point " + printed("%.0f", coverage.images_a_point),
+      "quality_color_inconsistency " + formatted("%.3f", consistency),
+      "quality_unseen_share " + formatted("%.4f", coverage.unseen_share),
+      "quality_images_a_point " + formatted("%.0f", coverage.images_a_point),
   };
   for (std::size_t k = 0; k < direction_names.size(); ++k)
     lines.push_back(std::string("quality_direction_") + direction_names[k] + " " +
-                    printed("%.3f", coverage.directions[k]));
+                    formatted("%.3f", coverage.directions[k]));
   return lines;
 }
 

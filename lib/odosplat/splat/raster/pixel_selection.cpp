@@ -13,7 +13,7 @@ namespace {
 
 using compute::Range;
 
-constexpr int block = 4;  // BLOCK of raster_common.cl
+constexpr int raster_block = 4;  // BLOCK of raster_common.cl
 // Gaussians of a work-item: long runs for the few threads of a CPU, short ones for a GPU.
 constexpr std::size_t cpu_chunk = 2048;
 constexpr std::size_t gpu_chunk = 16;
@@ -33,8 +33,8 @@ PixelSelection::PixelSelection(const compute::Context& context, std::size_t lane
 // Marks the blocks, and sums the marks over all rectangles that begin at the image's first corner.
 void PixelSelection::mark(const Viewpoint& view, const std::vector<cv::Point>& pixels) {
   const auto [width, height, columns, rows] = view.grid;
-  const auto stride = static_cast<std::size_t>((width + block - 1) / block + 1);
-  const auto block_rows = static_cast<std::size_t>((height + block - 1) / block);
+  const auto stride = static_cast<std::size_t>((width + raster_block - 1) / raster_block + 1);
+  const auto block_rows = static_cast<std::size_t>((height + raster_block - 1) / raster_block);
   places_.clear();
   blocks_.assign(view.tiles, 0);
   sums_.assign(stride * (block_rows + 1), 0);
@@ -44,9 +44,11 @@ void PixelSelection::mark(const Viewpoint& view, const std::vector<cv::Point>& p
                        "outside the image of " + std::to_string(width) + " x " + std::to_string(height));
     }
     places_.push_back(p.y * width + p.x);
-    const int in_tile = p.y % TILE_HEIGHT / block * (TILE_WIDTH / block) + p.x % TILE_WIDTH / block;
+    const int in_tile =
+        p.y % TILE_HEIGHT / raster_block * (TILE_WIDTH / raster_block) + p.x % TILE_WIDTH / raster_block;
     blocks_[static_cast<std::size_t>(p.y / TILE_HEIGHT * columns + p.x / TILE_WIDTH)] |= 1U << in_tile;
-    sums_[static_cast<std::size_t>(p.y / block + 1) * stride + static_cast<std::size_t>(p.x / block + 1)] = 1;
+    sums_[static_cast<std::size_t>(p.y / raster_block + 1) * stride +
+          static_cast<std::size_t>(p.x / raster_block + 1)] = 1;
   }
   for (std::size_t y = 1; y <= block_rows; ++y) {
     std::uint32_t row = 0;
@@ -77,8 +79,8 @@ void PixelSelection::select(const DeviceGaussians& gaussians, const Viewpoint& v
   if (n == 0) return;
   const auto chunk_arg = static_cast<std::int32_t>(chunk);
   keep_(Range::linear(chunks, 1), static_cast<std::int32_t>(n), chunk_arg, gaussians.positions, gaussians.log_scales,
-        view.pose, view.lens, view.grid, dilation, static_cast<std::int32_t>((view.grid[0] + block - 1) / block),
-        device_sums_, kept_, kept_counts_);
+        view.pose, view.lens, view.grid, dilation,
+        static_cast<std::int32_t>((view.grid[0] + raster_block - 1) / raster_block), device_sums_, kept_, kept_counts_);
   scan_.exclusive(kept_counts_, chunks, starts_);
   join_(Range::linear(chunks, 1), chunk_arg, kept_, kept_counts_, starts_, selected_);
   std::uint32_t total = 0;

@@ -16,7 +16,7 @@ using compute::Range;
 
 namespace {
 constexpr int padding = 8;      // PAD of ssim.cl
-constexpr int block = 8;        // pixels of a work-item
+constexpr int item_pixels = 8;  // of a work-item
 constexpr int local_size = 16;  // work-items of a group
 }  // namespace
 
@@ -38,8 +38,8 @@ void ImageLoss::prepare(int width, int height) {
   if (width == width_ && height == height_) return;
   width_ = width;
   height_ = height;
-  const int blocks = (width + block - 1) / block;
-  stride_ = padding + blocks * block + padding;
+  const int blocks = (width + item_pixels - 1) / item_pixels;
+  stride_ = padding + blocks * item_pixels + padding;
   const auto map = static_cast<std::size_t>(3 * height) * static_cast<std::size_t>(stride_);
   moments_.resize(context_, 5 * map);
   partials_.resize(context_, 3 * map);
@@ -56,7 +56,7 @@ void ImageLoss::prepare(int width, int height) {
 void ImageLoss::evaluate(const Buffer<float>& rendered, const Buffer<float>& target, int width, int height,
                          Buffer<float>& gradient) {
   prepare(width, height);
-  const std::int32_t blocks = (width + block - 1) / block;
+  const std::int32_t blocks = (width + item_pixels - 1) / item_pixels;
   const auto n = static_cast<std::size_t>(3 * height) * static_cast<std::size_t>(width);
   gradient.resize(context_, n);
   const Range range =

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <sstream>
 
 #include "kernels/constants.h"
 #include "odosplat/core/checksum.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/core/upper_median.hpp"
@@ -189,10 +189,8 @@ void Trainer::guard() {
   ++undone_;
   // Without densification the same steps would give the same result again.
   ended_early_ = !densified || iteration_ > options_.densify.until_share * options_.iterations;
-  char numbers[96];
-  std::snprintf(numbers, sizeof(numbers), "fell from %.1f to %.1f dB by step %d", guard_.best_db(), guard_.last_db(),
-                fallen_at);
-  log_warning(std::string("training ") + numbers + ": restored to step " + std::to_string(iteration_) +
+  log_warning(formatted("training fell from %.1f to %.1f dB by step %d: restored to step %d", guard_.best_db(),
+                        guard_.last_db(), fallen_at, iteration_) +
               (ended_early_ ? ", where training ends" : ", from where training goes on without densification"));
 }
 

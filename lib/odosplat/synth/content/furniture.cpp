@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "odosplat/core/angles.hpp"
+
 namespace odosplat {
 namespace {
-
-constexpr float pi = 3.14159265F;
-
-float between(Random& random, double low, double high) { return static_cast<float>(random.uniform(low, high)); }
 
 int pick(Random& random, const std::vector<int>& of) { return of[random.below(static_cast<std::uint32_t>(of.size()))]; }
 
@@ -19,7 +17,7 @@ int pick(Random& random, const std::vector<int>& of) { return of[random.below(st
 Eigen::Isometry3f standing_at(float x, float y, float z, float degrees) {
   Eigen::Isometry3f T_world_local = Eigen::Isometry3f::Identity();
   T_world_local.translate(Eigen::Vector3f(x, y, z));
-  T_world_local.rotate(Eigen::AngleAxisf(degrees * pi / 180.0F, Eigen::Vector3f::UnitZ()));
+  T_world_local.rotate(Eigen::AngleAxisf(degrees * float_pi / 180.0F, Eigen::Vector3f::UnitZ()));
   return T_world_local;
 }
 
@@ -173,7 +171,7 @@ void add_plant(SceneBuilder& builder, float height, int leaves, int pot, int lea
   builder.add_cylinder({0.0F, 0.0F, pot_height - 0.04F}, {0.0F, 0.0F, pot_height - 0.035F}, 0.165F, 0.165F, earth, 24,
                        true);
   for (int i = 0; i < leaves; ++i) {
-    const float around = 2.0F * pi * (static_cast<float>(i) * 0.381966F + between(random, 0.0, 0.06));
+    const float around = 2.0F * float_pi * (static_cast<float>(i) * 0.381966F + between(random, 0.0, 0.06));
     const float rise = (height - pot_height) * between(random, 0.55, 1.0);
     const float reach = height * between(random, 0.16, 0.3);
     const float width = between(random, 0.05, 0.09);
@@ -182,9 +180,11 @@ void add_plant(SceneBuilder& builder, float height, int leaves, int pot, int lea
     const Eigen::Vector3f foot = 0.03F * out + Eigen::Vector3f(0.0F, 0.0F, pot_height - 0.05F);
     // v runs from the tip down to the foot: a stalk that widens into an arching blade.
     auto spine = [=](float s) -> Eigen::Vector3f {
-      return foot + reach * s * s * out + Eigen::Vector3f(0.0F, 0.0F, rise * std::sin(0.62F * pi * s));
+      return foot + reach * s * s * out + Eigen::Vector3f(0.0F, 0.0F, rise * std::sin(0.62F * float_pi * s));
     };
-    auto blade = [=](float s) { return s < 0.35F ? 0.006F : 0.006F + width * std::sin(pi * (s - 0.35F) / 0.65F); };
+    auto blade = [=](float s) {
+      return s < 0.35F ? 0.006F : 0.006F + width * std::sin(float_pi * (s - 0.35F) / 0.65F);
+    };
     SceneBuilder::Surface surface;
     surface.position = [=](float u, float v) -> Eigen::Vector3f {
       const float s = 1.0F - v;
@@ -236,7 +236,8 @@ void add_window(SceneBuilder& builder, float width, float height, float depth, i
 void add_curtain(SceneBuilder& builder, float width, float height, int folds, int cloth) {
   const auto n = static_cast<float>(folds);
   auto depth = [=](float u, float v) {
-    return (0.02F + 0.03F * v) * std::sin(2.0F * pi * n * u) + 0.012F * std::sin(2.0F * pi * (1.7F * n * u + 0.4F * v));
+    return (0.02F + 0.03F * v) * std::sin(2.0F * float_pi * n * u) +
+           0.012F * std::sin(2.0F * float_pi * (1.7F * n * u + 0.4F * v));
   };
   SceneBuilder::Surface surface;
   surface.position = [=](float u, float v) -> Eigen::Vector3f {

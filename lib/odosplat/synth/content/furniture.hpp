@@ -14,6 +14,9 @@ namespace odosplat {
 /// Metres. Each function adds to the builder in the frame set by builder.place(); materials are indices of the
 /// builder's materials.
 
+/// A uniform random number between two limits, in single precision.
+inline float between(Random& random, double low, double high) { return static_cast<float>(random.uniform(low, high)); }
+
 /// Frame at (x, y, z), rotated by `degrees` about z (counter-clockwise from above).
 Eigen::Isometry3f standing_at(float x, float y, float z, float degrees);
 

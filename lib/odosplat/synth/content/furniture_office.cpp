@@ -5,14 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "odosplat/core/angles.hpp"
+#include "odosplat/synth/content/furniture.hpp"
+
 namespace odosplat {
-namespace {
-
-constexpr float pi = 3.14159265F;
-
-float between(Random& random, double low, double high) { return static_cast<float>(random.uniform(low, high)); }
-
-}  // namespace
 
 void add_desk(SceneBuilder& builder, const Eigen::Vector3f& size, int top, int frame) {
   const float w = 0.5F * size.x();
@@ -30,7 +26,7 @@ void add_desk(SceneBuilder& builder, const Eigen::Vector3f& size, int top, int f
 
 void add_office_chair(SceneBuilder& builder, int cloth, int plastic, int metal) {
   for (int i = 0; i < 5; ++i) {
-    const float angle = 2.0F * pi * (static_cast<float>(i) + 0.25F) / 5.0F;
+    const float angle = 2.0F * float_pi * (static_cast<float>(i) + 0.25F) / 5.0F;
     const Eigen::Vector3f out(std::cos(angle), std::sin(angle), 0.0F);
     builder.add_cylinder({0.0F, 0.0F, 0.11F}, 0.29F * out + Eigen::Vector3f(0.0F, 0.0F, 0.075F), 0.022F, 0.016F,
                          plastic, 8, true);
@@ -132,7 +128,7 @@ void add_ceiling_light(SceneBuilder& builder, const Eigen::Vector2f& size, int p
 
 void add_blind(SceneBuilder& builder, float width, float height, float tilt_deg, int slat, int cord) {
   constexpr float pitch = 0.042F;
-  const float tilt = tilt_deg * pi / 180.0F;
+  const float tilt = tilt_deg * float_pi / 180.0F;
   const Eigen::Vector3f across(0.0F, 0.025F * std::cos(tilt), 0.025F * std::sin(tilt));
   builder.add_box({0.0F, -0.03F, height - 0.04F}, {width, 0.03F, height}, slat);
   builder.add_box({0.0F, -0.015F, 0.0F}, {width, 0.015F, 0.015F}, slat);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "odosplat/core/angles.hpp"
+
 namespace odosplat {
 namespace {
 
@@ -21,7 +23,7 @@ const std::array<std::array<float, 2>, 256>& gradients() {
   static const auto table = [] {
     std::array<std::array<float, 2>, 256> t{};
     for (std::size_t i = 0; i < t.size(); ++i) {
-      const float angle = static_cast<float>(i) * (6.2831853F / 256.0F);
+      const float angle = static_cast<float>(i) * (2.0F * float_pi / 256.0F);
       t[i] = {std::cos(angle), std::sin(angle)};
     }
     return t;
@@ -49,6 +51,10 @@ std::uint32_t lattice_hash(int x, int y, std::uint32_t seed) {
   }
   h *= 0xC2B2AE35U;
   return h ^ (h >> 16);
+}
+
+float hash01(int x, int y, std::uint32_t seed) {
+  return static_cast<float>(lattice_hash(x, y, seed) >> 8) / 16777216.0F;
 }
 
 float gradient_noise(float x, float y, int period, std::uint32_t seed) {

@@ -9,6 +9,9 @@ namespace odosplat {
 /// A 32-bit hash of a lattice point and a seed.
 std::uint32_t lattice_hash(int x, int y, std::uint32_t seed);
 
+/// The same hash as a number in [0, 1).
+float hash01(int x, int y, std::uint32_t seed);
+
 /// Gradient noise on the integer lattice: smooth, mean 0, about -0.7..0.7. Source: Perlin, "Improving noise" (2002),
 /// in two dimensions with gradients of all directions. It repeats every `period` (>= 1) lattice cells in x and in y,
 /// so that textures made of it tile without seams. Pure function: the same bits for the same arguments.

@@ -7,13 +7,9 @@
 
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/synth/content/noise.hpp"
+#include "odosplat/synth/content/pattern_parts.hpp"
 
 namespace odosplat {
-namespace {
-
-Eigen::Vector3f mix(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float s) { return (1.0F - s) * a + s * b; }
-
-}  // namespace
 
 ColorImage paint(int width, int height, const std::function<Eigen::Vector3f(float x, float y)>& color) {
   ColorImage image(height, width);

@@ -4,20 +4,13 @@
 #include <cmath>
 
 #include "odosplat/synth/content/noise.hpp"
+#include "odosplat/synth/content/pattern_parts.hpp"
 #include "odosplat/synth/content/patterns.hpp"
 
 namespace odosplat {
 namespace {
 
 using Color = Eigen::Vector3f;
-
-Color mix(const Color& a, const Color& b, float s) { return (1.0F - s) * a + s * b; }
-
-float hash01(int a, int b, std::uint32_t seed) {
-  return static_cast<float>(lattice_hash(a, b, seed) >> 8) / 16777216.0F;
-}
-
-float fraction(float x) { return x - std::floor(x); }
 
 /// Whether (x, y) is on a letter of a page set in lines of the given height: words of random length, ragged right.
 bool on_letter(float x, float y, float line_height, std::uint32_t seed) {

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "odosplat/core/angles.hpp"
 #include "odosplat/synth/content/noise.hpp"
+#include "odosplat/synth/content/pattern_parts.hpp"
 #include "odosplat/synth/content/patterns.hpp"
 
 namespace odosplat {
 namespace {
 
 using Color = Eigen::Vector3f;
-constexpr float pi = 3.14159265F;
-
-Color mix(const Color& a, const Color& b, float s) { return (1.0F - s) * a + s * b; }
 
 /// 0 below `low`, 1 above `high`, smooth between.
 float step(float low, float high, float x) {
@@ -20,16 +19,10 @@ float step(float low, float high, float x) {
   return t * t * (3.0F - 2.0F * t);
 }
 
-float hash01(int a, int b, std::uint32_t seed) {
-  return static_cast<float>(lattice_hash(a, b, seed) >> 8) / 16777216.0F;
-}
-
-float fraction(float x) { return x - std::floor(x); }
-
 /// Wood's tone 0..1 at (x, y) of a tile; grain along x.
 float grain(float x, float y, std::uint32_t seed) {
   const float bend = 0.6F * gradient_noise(3.0F * x, 3.0F * y, 3, seed);
-  const float rings = 0.5F + 0.5F * std::sin(2.0F * pi * (4.0F * y + 2.5F * bend));
+  const float rings = 0.5F + 0.5F * std::sin(2.0F * float_pi * (4.0F * y + 2.5F * bend));
   const float fibres = fractal_noise(8.0F * x, 64.0F * y, 8, 2, 0.5F, seed + 7);
   const float patches = fractal_noise(2.0F * x, 4.0F * y, 2, 3, 0.5F, seed + 9);
   return std::clamp(0.4F + 0.2F * rings + 0.5F * fibres + 0.6F * patches, 0.0F, 1.0F);
@@ -86,8 +79,8 @@ ColorImage brick_pattern(int width, int height, int columns, int rows, std::uint
 
 ColorImage cloth_pattern(int size, const Color& color, const Color& stripe, int stripes, std::uint32_t seed) {
   return paint(size, size, [=](float x, float y) -> Color {
-    const float warp = std::sin(2.0F * pi * 60.0F * x);
-    const float weft = std::sin(2.0F * pi * 60.0F * y);
+    const float warp = std::sin(2.0F * float_pi * 60.0F * x);
+    const float weft = std::sin(2.0F * float_pi * 60.0F * y);
     const float uneven = fractal_noise(6.0F * x, 6.0F * y, 6, 5, 0.6F, seed);
     const float shade = 1.0F + 0.05F * warp * weft + 0.22F * uneven;
     float share = 0.0F;

@@ -4,13 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace odosplat {
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-}  // namespace
 
 Tremor::Tremor(Random& random, double duration, bool closed) {
   double power = 0.0;
@@ -19,7 +15,7 @@ Tremor::Tremor(Random& random, double duration, bool closed) {
     if (closed) frequency = std::max(1.0, std::round(frequency * duration)) / duration;
     const double roll_off = 1.0 + std::pow(frequency / 3.0, 4.0);
     const double amplitude = 1.0 / (frequency * std::sqrt(roll_off));
-    waves_.push_back({frequency, amplitude, random.uniform(0.0, 2.0 * pi)});
+    waves_.push_back({frequency, amplitude, random.uniform(0.0, 2.0 * std::numbers::pi)});
     power += 0.5 * amplitude * amplitude;
   }
   for (Wave& w : waves_) w.amplitude /= std::sqrt(power);
@@ -27,7 +23,7 @@ Tremor::Tremor(Random& random, double duration, bool closed) {
 
 double Tremor::operator()(double time) const {
   double sum = 0.0;
-  for (const Wave& w : waves_) sum += w.amplitude * std::sin(2.0 * pi * w.frequency * time + w.phase);
+  for (const Wave& w : waves_) sum += w.amplitude * std::sin(2.0 * std::numbers::pi * w.frequency * time + w.phase);
   return sum;
 }
 

@@ -4,24 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "odosplat/core/angles.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/random.hpp"
 
 namespace odosplat {
 namespace {
 
-constexpr double radians_a_degree = 3.14159265358979323846 / 180.0;
 constexpr int steps_a_unit = 400;  // entries of `pace_` per unit of the spline's parameter
 
 SE3 steady_pose(const PathSpline::Point& p) { return look_at(p.head<3>(), p.tail<3>()); }
 
-std::string metres(double length) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f m", length);
-  return text;
-}
+std::string metres(double length) { return formatted("%.2f m", length); }
 
 }  // namespace
 
@@ -77,11 +73,11 @@ Walk::Walk(const std::vector<Waypoint>& waypoints, const WalkOptions& options)
   for (std::size_t k = 1; k < path.size(); ++k) {
     const SE3 T_last_camera = path[k - 1].T_world_camera.inverse() * path[k].T_world_camera;
     speed = std::max(speed, T_last_camera.translation().norm() * options.fps);
-    turn = std::max(turn, T_last_camera.angle() / radians_a_degree);
+    turn = std::max(turn, T_last_camera.angle() / radians_per_degree);
   }
-  char fault[120];
-  std::snprintf(fault, sizeof(fault), "too fast: up to %.2f m/s and %.2f degrees a frame", speed, turn);
-  if (speed > options.max_speed || turn > options.max_turn_deg) throw InputError("walk", fault);
+  if (speed > options.max_speed || turn > options.max_turn_deg) {
+    throw InputError("walk", formatted("too fast: up to %.2f m/s and %.2f degrees a frame", speed, turn));
+  }
 }
 
 SE3 Walk::pose_at(double time, double reach) const {
@@ -97,7 +93,7 @@ SE3 Walk::pose_at(double time, double reach) const {
   const Eigen::Vector3d turn(tremor_[3](time), tremor_[4](time), tremor_[5](time));
   const PathSpline::Point p = spline_(s);
   const SE3 T_world_steady = look_at(p.head<3>() + options_.tremor_m * shift, p.tail<3>());
-  return T_world_steady * SE3(so3_exp(options_.tremor_deg * radians_a_degree * turn), Eigen::Vector3d::Zero());
+  return T_world_steady * SE3(so3_exp(options_.tremor_deg * radians_per_degree * turn), Eigen::Vector3d::Zero());
 }
 
 SE3 Walk::pose_at(double time) const { return pose_at(time, reach_); }

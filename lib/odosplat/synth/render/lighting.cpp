@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "odosplat/core/angles.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/synth/content/noise.hpp"
@@ -12,7 +13,6 @@
 namespace odosplat {
 namespace {
 
-constexpr float pi = 3.14159265F;
 constexpr float nearest = 0.05F;      // [m] lower limit for the distance of a light, so that its light is bounded
 constexpr float lift = 2e-3F;         // [m] height above the surface at which light is gathered
 constexpr float gather_limit = 2.0F;  // limit for stored light, because bright spots near a lamp would cause speckles
@@ -40,10 +40,6 @@ Eigen::Vector2f sample_point(int i, int n, float a, float b) {
   return {x, y};
 }
 
-float hash01(int a, int b, std::uint32_t seed) {
-  return static_cast<float>(lattice_hash(a, b, seed) >> 8) / 16777216.0F;
-}
-
 /// Unit vectors that complete `normal` to a right-handed frame.
 void tangents(const Eigen::Vector3f& normal, Eigen::Vector3f& s, Eigen::Vector3f& t) {
   const Eigen::Vector3f axis = std::abs(normal.z()) < 0.9F ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
@@ -56,7 +52,7 @@ Eigen::Vector3f direct_light(const Scene& scene, const Light& light, const Texel
   const Eigen::Vector3f origin = texel.position + lift * texel.normal;
   const Eigen::Vector3f light_normal = light.edge_v.cross(light.edge_u).normalized();
   const float area =
-      light.radius > 0.0F ? 4.0F * pi * light.radius * light.radius : light.edge_u.cross(light.edge_v).norm();
+      light.radius > 0.0F ? 4.0F * float_pi * light.radius * light.radius : light.edge_u.cross(light.edge_v).norm();
   const float a = hash01(texel.patch, texel.index, 1);
   const float b = hash01(texel.patch, texel.index, 2);
   float sum = 0.0F;
@@ -67,7 +63,7 @@ Eigen::Vector3f direct_light(const Scene& scene, const Light& light, const Texel
     if (light.radius > 0.0F) {
       const float z = 1.0F - 2.0F * r.x();
       const float ring = std::sqrt(std::max(0.0F, 1.0F - z * z));
-      normal = {ring * std::cos(2.0F * pi * r.y()), ring * std::sin(2.0F * pi * r.y()), z};
+      normal = {ring * std::cos(2.0F * float_pi * r.y()), ring * std::sin(2.0F * float_pi * r.y()), z};
       target = light.corner + light.radius * normal;
     } else {
       target = light.corner + r.x() * light.edge_u + r.y() * light.edge_v;
@@ -81,7 +77,7 @@ Eigen::Vector3f direct_light(const Scene& scene, const Light& light, const Texel
     if (scene.occluded({origin, to_light, 0.0F, 1.0F - lift / distance})) continue;
     sum += cosine_here * cosine_there / distance2;
   }
-  return light.radiance * (sum * area / (static_cast<float>(samples) * pi));
+  return light.radiance * (sum * area / (static_cast<float>(samples) * float_pi));
 }
 
 /// Irradiance / pi from other surfaces with their light of the previous round.
@@ -96,7 +92,8 @@ Eigen::Vector3f gathered_light(const Scene& scene, const Texel& texel, int sampl
   for (int i = 0; i < samples; ++i) {
     const Eigen::Vector2f r = sample_point(i, samples, a, b);
     const float ring = std::sqrt(r.x());
-    const Eigen::Vector3f direction = ring * std::cos(2.0F * pi * r.y()) * s + ring * std::sin(2.0F * pi * r.y()) * t +
+    const Eigen::Vector3f direction = ring * std::cos(2.0F * float_pi * r.y()) * s +
+                                      ring * std::sin(2.0F * float_pi * r.y()) * t +
                                       std::sqrt(1.0F - r.x()) * texel.normal;
     RayHit hit;
     if (!scene.closest({origin, direction}, hit)) continue;

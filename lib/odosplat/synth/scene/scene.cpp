@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "odosplat/core/angles.hpp"
+
 namespace odosplat {
 
 Scene::Scene(SceneContent content) : content_(std::move(content)) {
@@ -106,10 +108,9 @@ Eigen::Vector3f Scene::radiance(const Ray& ray, const RayHit& hit, float footpri
 
 Eigen::Vector3f Scene::background(const Eigen::Vector3f& direction) const {
   if (!content_.background) return Eigen::Vector3f::Zero();
-  constexpr float pi = 3.14159265F;
   const float azimuth = std::atan2(direction.y(), direction.x());
   const float elevation = std::atan2(direction.z(), direction.head<2>().norm());
-  const Eigen::Vector2f tile(azimuth / (2.0F * pi) + 0.5F, 0.5F - elevation / pi);
+  const Eigen::Vector2f tile(azimuth / (2.0F * float_pi) + 0.5F, 0.5F - elevation / float_pi);
   return content_.background_radiance * content_.background->sample(tile, 1.0F);
 }
 

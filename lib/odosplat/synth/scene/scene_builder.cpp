@@ -5,14 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "odosplat/core/angles.hpp"
 #include "odosplat/core/error.hpp"
 
 namespace odosplat {
-namespace {
-
-constexpr float pi = 3.14159265F;
-
-}  // namespace
 
 int SceneBuilder::add_texture(const ColorImage& image, const Eigen::Vector2f& size_m, Texture::Edge edge) {
   content_.textures.push_back(std::make_shared<const Texture>(image, size_m, edge));
@@ -126,7 +122,9 @@ void SceneBuilder::add_cylinder(const Eigen::Vector3f& base, const Eigen::Vector
   const Eigen::Vector3f helper = std::abs(axis.z()) < 0.9F ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
   const Eigen::Vector3f s = helper.cross(axis).normalized();
   const Eigen::Vector3f t = axis.cross(s);
-  auto outward = [=](float u) -> Eigen::Vector3f { return std::cos(2.0F * pi * u) * s + std::sin(2.0F * pi * u) * t; };
+  auto outward = [=](float u) -> Eigen::Vector3f {
+    return std::cos(2.0F * float_pi * u) * s + std::sin(2.0F * float_pi * u) * t;
+  };
   const float length = (top - base).norm();
   const float slope = (radius_base - radius_top) / length;
   Surface side;
@@ -135,7 +133,7 @@ void SceneBuilder::add_cylinder(const Eigen::Vector3f& base, const Eigen::Vector
   };
   side.normal = [=](float u, float) -> Eigen::Vector3f { return (outward(u) + slope * axis).normalized(); };
   side.segments_u = segments;
-  side.size_m = {pi * (radius_base + radius_top), length};
+  side.size_m = {float_pi * (radius_base + radius_top), length};
   side.material = material;
   add_surface(side);
   if (!caps) return;
@@ -145,7 +143,7 @@ void SceneBuilder::add_cylinder(const Eigen::Vector3f& base, const Eigen::Vector
     cap.position = [=](float u, float v) -> Eigen::Vector3f { return centre + radius * v * outward(sign * u); };
     cap.normal = [=](float, float) -> Eigen::Vector3f { return sign * axis; };
     cap.segments_u = segments;
-    cap.size_m = {2.0F * pi * radius, radius};
+    cap.size_m = {2.0F * float_pi * radius, radius};
     cap.material = material;
     add_surface(cap);
   };

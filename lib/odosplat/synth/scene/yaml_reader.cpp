@@ -5,27 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/yaml_document.hpp"
 
 namespace odosplat {
 namespace {
 
 constexpr std::size_t max_text = 4U << 20;
-
-// Text for a one-line error: keys and the parser's messages may contain line ends.
-std::string shown(std::string text) {
-  text.resize(std::min<std::size_t>(text.size(), 80));
-  for (char& c : text) c = static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-  return text;
-}
-
-std::string brief(double value) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%g", value);
-  return text;
-}
 
 }  // namespace
 
@@ -36,7 +23,7 @@ YamlPart::YamlPart(std::string name, const std::string& text) : name_(std::move(
     if (!document) throw InputError(name_, "holds several YAML documents (`---`), must hold one");
     node_.reset(*document);
   } catch (const YAML::Exception& e) {
-    throw InputError(name_, "line " + std::to_string(e.mark.line + 1), shown(e.msg));
+    throw InputError(name_, "line " + std::to_string(e.mark.line + 1), yaml_excerpt(e.msg));
   }
 }
 
@@ -49,7 +36,7 @@ bool YamlPart::has(const std::string& key) const {
 }
 
 YamlPart YamlPart::at(const std::string& key) const {
-  const std::string place = place_ == "content" ? shown(key) : place_ + "." + shown(key);
+  const std::string place = place_ == "content" ? yaml_excerpt(key) : place_ + "." + yaml_excerpt(key);
   if (!has(key)) throw InputError(name_, place, "is missing");
   return {name_, place, node_[key]};
 }
@@ -60,7 +47,7 @@ std::vector<std::string> YamlPart::keys() const {
   for (const auto& entry : node_) {
     expect(entry.first.IsScalar(), "has a key that is not a word");
     if (std::find(found.begin(), found.end(), entry.first.Scalar()) != found.end()) {
-      fail("has the key " + shown(entry.first.Scalar()) + " twice");
+      fail("has the key " + yaml_excerpt(entry.first.Scalar()) + " twice");
     }
     found.push_back(entry.first.Scalar());
   }
@@ -89,7 +76,8 @@ double YamlPart::number(double low, double high) const {
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   expect(error == std::errc() && stop == end && std::isfinite(value), "is not a number");
-  if (value < low || value > high) fail("must be in " + brief(low) + ".." + brief(high) + ", is " + brief(value));
+  if (value < low || value > high)
+    fail("must be in " + number_text(low) + ".." + number_text(high) + ", is " + number_text(value));
   return value;
 }
 

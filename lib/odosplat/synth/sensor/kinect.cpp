@@ -6,14 +6,13 @@
 #include <cmath>
 #include <string>
 
+#include "odosplat/core/angles.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/synth/sensor/row_random.hpp"
 
 namespace odosplat {
 namespace {
-
-constexpr double radians_a_degree = 3.14159265358979323846 / 180.0;
 
 // Change of inverse depth at a pixel along one axis.
 struct Slope {
@@ -50,7 +49,7 @@ bool answers(const DepthImage& ideal, const Camera& camera, const KinectOptions&
   const Eigen::Vector3d ray = camera.ray(x, y);
   Eigen::Vector3d m(across.step * camera.fx, down.step * camera.fy, 0.0);
   m.z() = here - m.x() * ray.x() - m.y() * ray.y();
-  return here >= std::cos(options.max_angle_deg * radians_a_degree) * m.norm() * ray.norm();
+  return here >= std::cos(options.max_angle_deg * radians_per_degree) * m.norm() * ray.norm();
 }
 
 }  // namespace

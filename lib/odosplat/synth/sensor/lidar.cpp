@@ -3,6 +3,7 @@
 #include "odosplat/synth/sensor/lidar.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
@@ -11,7 +12,6 @@
 namespace odosplat {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr float beam_width = 0.003F;  // [rad] width over which colour is averaged
 
 }  // namespace
@@ -19,8 +19,9 @@ constexpr float beam_width = 0.003F;  // [rad] width over which colour is averag
 void LidarOptions::check() const {
   require(rings >= 1 && rings <= 4096, "lidar.rings", "in 1..4096");
   require(columns >= 1 && columns <= 16384, "lidar.columns", "in 1..16384");
-  require(elevation_min >= -pi / 2 && elevation_max <= pi / 2 && elevation_min <= elevation_max, "lidar.elevation_min",
-          "at most elevation_max, both in -pi/2..pi/2");
+  require(
+      elevation_min >= -std::numbers::pi / 2 && elevation_max <= std::numbers::pi / 2 && elevation_min <= elevation_max,
+      "lidar.elevation_min", "at most elevation_max, both in -pi/2..pi/2");
   require(range_min > 0.0 && range_max > range_min, "lidar.range_max", "above range_min, which must be positive");
   require(range_noise >= 0.0 && range_noise <= 0.5, "lidar.range_noise", "in 0..0.5");
   require(min_incidence >= 0.0 && min_incidence <= 1.0, "lidar.min_incidence", "in 0..1");
@@ -44,7 +45,7 @@ PointCloud simulate_lidar(const Scene& scene, const std::vector<SE3>& T_world_sc
         const double share = options.rings == 1 ? 0.5 : static_cast<double>(ring) / (options.rings - 1);
         const double elevation = options.elevation_min + share * (options.elevation_max - options.elevation_min);
         for (int column = 0; column < options.columns; ++column) {
-          const double azimuth = 2.0 * pi * column / options.columns;
+          const double azimuth = 2.0 * std::numbers::pi * column / options.columns;
           const double noise = options.range_noise * random.normal();
           const Eigen::Vector3d direction =
               R * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),

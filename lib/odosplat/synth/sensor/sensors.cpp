@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
@@ -13,7 +14,6 @@
 namespace odosplat {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double disparity_unit = 351.3;  // [m * eighths of a pixel]: 8 * focal length * baseline of a Kinect
 
 }  // namespace
@@ -27,7 +27,7 @@ void ColorSensorOptions::check() const {
 }
 
 AffineBrightness brightness_at(const ColorSensorOptions& options, double time) {
-  const double phase = 2.0 * pi * time / options.exposure_period;
+  const double phase = 2.0 * std::numbers::pi * time / options.exposure_period;
   // Gain and offset have different periods, so that one cannot compensate for the other.
   return {1.0 + options.exposure_swing * std::sin(phase), options.offset_swing * std::sin(0.7 * phase)};
 }

@@ -4,26 +4,10 @@
 
 #include <Eigen/Core>
 
+#include "odosplat/camera/camera_correction.hpp"
 #include "odosplat/core/se3.hpp"
 
 namespace odosplat {
-
-/// Errors of the given camera calibration, as seen in comparison with the map: with x and y a point's ray at depth 1
-/// and r^2 = x^2 + y^2, u = fx ((1 + focal) x (1 + radial r^2) + center_u) + cx, v likewise. A rolling shutter takes
-/// the row at a share s of the image's height at the image's time plus (s - 0.5) readout; the ray is the one seen then.
-struct CameraCorrection {
-  static constexpr int size = 5;
-  using Vector = Eigen::Matrix<double, size, 1>;
-  using Matrix = Eigen::Matrix<double, size, size>;
-  double focal = 0.0;
-  double center_u = 0.0;
-  double center_v = 0.0;
-  double radial = 0.0;
-  double readout = 0.0;  // [s] from the first row to the last
-
-  Vector vector() const { return {focal, center_u, center_v, radial, readout}; }
-  static CameraCorrection from(const Vector& v) { return {v[0], v[1], v[2], v[3], v[4]}; }
-};
 
 /// Normal equations of one image's remaining shifts against the map: of the pose (twist on the left of T_camera_world,
 /// rows 0 to 5) and of the camera (the others). Their solution is the right values minus those at which the residuals

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "apps/cli/check_report.hpp"
+#include "apps/cli/check/check_report.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/check/check_camera.hpp"
 #include "apps/command/json_text.hpp"
 
 namespace odosplat::apps {
@@ -34,6 +35,9 @@ Json findings_of(const CheckResults& results) {
   if (results.registration) {
     list.push_back(finding("registration", "depth", results.registration->registered, results.registration->text));
   }
+  if (results.camera) {
+    for (const CameraFinding& f : results.camera->findings) list.push_back(finding(f.part, "depth", f.right, f.text));
+  }
   if (results.cloud) {
     for (const CloudFinding& f : results.cloud->findings) list.push_back(finding(f.part, "cloud", f.right, f.text));
   }
@@ -57,8 +61,10 @@ std::optional<bool> poses_inverted(const CheckResults& results) {
 std::optional<Measured> color_focal(const Sequence& sequence, const CheckResults& results) {
   const double declared = sequence.camera().fx;
   std::optional<Measured> focal;
-  // The comparison of depth edges with image edges does not use the poses, so errors of the poses do not affect it.
-  if (results.registration && results.registration->registered) {
+  if (results.camera && results.camera->measured && results.camera->findings.front().right) {
+    focal = results.camera->focal_px(sequence.camera());
+    // The comparison of depth edges with image edges does not use the poses.
+  } else if (results.registration && results.registration->registered) {
     focal = Measured{declared * results.registration->scale, declared * results.registration->scale_sigma};
   } else if (results.cloud && results.cloud->fit) {
     focal = results.cloud->fit->focal_px;
@@ -94,6 +100,11 @@ CheckAnswer answer_of(const CheckResults& results) {
     if (!results.conventions->as_declared) return CheckAnswer::differ;
   }
   if (results.registration && results.registration->registered == false) return CheckAnswer::differ;
+  if (results.camera) {
+    for (const CameraFinding& f : results.camera->findings) {
+      if (f.right == false) return CheckAnswer::differ;
+    }
+  }
   if (results.cloud) {
     if (results.cloud->answer == CloudAnswer::differ) return CheckAnswer::differ;
     undecided = results.cloud->answer == CloudAnswer::undecided;
@@ -104,14 +115,20 @@ CheckAnswer answer_of(const CheckResults& results) {
 std::string verdict_of(const CheckResults& results) {
   std::string verdict;
   const auto add = [&](const std::string& text) { verdict += (verdict.empty() ? "" : "; ") + text; };
-  if (results.conventions) add((results.cloud ? "by depth: " : "") + results.conventions->verdict);
+  if (results.conventions) {
+    add((results.cloud ? "by depth: " : "") + results.conventions->verdict +
+        (results.with_measured_camera ? " with the camera that the images ask for" : ""));
+  }
   if (results.registration && results.registration->registered != true) add(results.registration->text);
+  if (results.camera && results.camera->measured) add(camera_verdict(*results.camera));
   if (results.cloud) add((results.conventions ? "by the cloud: " : "") + results.cloud->verdict);
   return verdict;
 }
 
 std::string check_json(const Sequence& sequence, const CheckResults& results, const std::string& checksum) {
   const std::optional<Measured> focal = color_focal(sequence, results);
+  const Json camera =
+      results.camera && results.camera->measured ? camera_fit_json(*results.camera, sequence.camera()) : Json(nullptr);
   const Json json{
       {"name", sequence.name()},
       {"layout", sequence.layout()},
@@ -123,7 +140,9 @@ std::string check_json(const Sequence& sequence, const CheckResults& results, co
       {"color_focal_px", focal ? Json(focal->value) : Json(nullptr)},
       {"color_focal_sigma_px", focal ? Json(focal->sigma) : Json(nullptr)},
       {"depth_registered", results.registration ? or_null(results.registration->registered) : Json(nullptr)},
-      {"time_offset_s", nullptr},
+      {"camera", camera},
+      {"time_offset_s",
+       camera.is_null() || camera["time_offset_s"].is_null() ? Json(nullptr) : camera["time_offset_s"]["value"]},
       {"poses_inverted", or_null(poses_inverted(results))},
       {"findings", findings_of(results)},
       {"texture_share", results.texture.share},

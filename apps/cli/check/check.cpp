@@ -3,12 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "apps/cli/check_report.hpp"
+#include "apps/cli/check/check_camera.hpp"
+#include "apps/cli/check/check_report.hpp"
 #include "apps/command/interrupt.hpp"
 #include "apps/command/no_result.hpp"
 #include "apps/command/number_flags.hpp"
@@ -18,6 +18,7 @@
 #include "apps/input/sequence_flags.hpp"
 #include "odosplat/core/checksum.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/progress.hpp"
 #include "odosplat/eval/convention_check.hpp"
 #include "odosplat/eval/texture.hpp"
@@ -35,18 +36,10 @@ struct CheckFlags {
   bool keep_going = false;
 };
 
-std::vector<std::size_t> frames_with_depth(const Sequence& sequence) {
-  std::vector<std::size_t> frames;
-  for (std::size_t i = 0; i < sequence.size(); ++i) {
-    if (sequence.has_depth(i)) frames.push_back(i);
-  }
-  return frames;
-}
-
-ConventionReport check_depth(const Sequence& sequence, const std::vector<std::size_t>& frames,
+ConventionReport check_depth(const Sequence& sequence, const Camera& camera, const std::vector<std::size_t>& frames,
                              const ConventionOptions& options) {
   ConventionInput input;
-  input.camera = sequence.camera();
+  input.camera = camera;
   input.fy_sign = sequence.fy_sign();
   input.depth_scale = sequence.depth_scale();
   for (const std::size_t i : frames) input.T_world_camera.push_back(sequence.T_world_depth(i));
@@ -55,18 +48,6 @@ ConventionReport check_depth(const Sequence& sequence, const std::vector<std::si
     return sequence.depth(frames[k]);
   };
   return check_conventions(input, options);
-}
-
-RegistrationReport check_edges(const Sequence& sequence, const std::vector<std::size_t>& frames) {
-  RegistrationInput input;
-  input.camera = sequence.camera();
-  input.images = frames.size();
-  input.gray = [&](std::size_t k) {
-    if (interrupted()) throw Interrupted();
-    return sequence.gray(frames[k]);
-  };
-  input.depth = [&](std::size_t k) { return sequence.depth(frames[k]); };
-  return check_registration(input);
 }
 
 CloudCheckReport check_with_cloud(const Sequence& sequence, const CheckFlags& flags) {
@@ -111,24 +92,50 @@ std::string checksum_of(const Sequence& sequence) {
     }
   }
   for (const StampedPose& pose : sequence.truth()) {
-    char line[200];
     const Eigen::Vector3d t = pose.T_world_camera.translation();
     const Eigen::Vector3d r = so3_log(pose.T_world_camera.rotation());
-    std::snprintf(line, sizeof(line), "%.6f %.6f %.6f %.6f %.6f %.6f %.6f\n", pose.time, t.x(), t.y(), t.z(), r.x(),
-                  r.y(), r.z());
-    sum.add(line);
+    sum.add(formatted("%.6f %.6f %.6f %.6f %.6f %.6f %.6f\n", pose.time, t.x(), t.y(), t.z(), r.x(), r.y(), r.z()));
   }
   return sum.text();
 }
 
-void print_depth(const Sequence& sequence, const ConventionReport& report, const RegistrationReport& registration) {
+/// Measures the camera where poses and fy are as declared and depth is of the colour camera: through depth of another one
+/// the images would ask for a wrong focal length. A wrong camera can look like images that are numbered by one from
+/// their poses: if it is found wrong, the conventions are judged with the one that the images ask for.
+void check_camera_by_depth(const Sequence& sequence, const std::vector<std::size_t>& frames, const CheckFlags& flags,
+                           CheckResults& results) {
+  const ConventionReport& given = *results.conventions;
+  const bool posed = given.believable && given.winner.fy_sign == given.declared.fy_sign &&
+                     given.winner.inverted == given.declared.inverted &&
+                     given.winner.depth_scale == given.declared.depth_scale;
+  if (!posed || results.registration->registered == false) return;
+  // Poses of data with a negative fy are reflected, as other commands read them.
+  SequenceFlags as_read = flags.sequence;
+  as_read.options.as_stored = false;
+  results.camera = measure_camera(sequence.fy_sign() < 0 ? open_sequence(as_read) : sequence);
+  if (given.as_declared || !results.camera->measured) return;
+  const bool wrong = std::any_of(results.camera->findings.begin(), results.camera->findings.end(),
+                                 [](const CameraFinding& f) { return f.right == false && f.part != "time offset"; });
+  if (!wrong) return;
+  const ConventionReport again =
+      check_depth(sequence, results.camera->state.corrected(sequence.camera()), frames, flags.conventions);
+  if (!again.as_declared) return;
+  results.conventions = again;
+  results.with_measured_camera = true;
+}
+
+void print_depth(const Sequence& sequence, const CheckResults& results) {
+  const ConventionReport& report = *results.conventions;
   const std::string gap =
       std::to_string(report.gap) + (report.max_gap > report.gap ? " to " + std::to_string(report.max_gap) : "");
-  print("depth of one image reprojected into another %s frames on, %d pairs%s\n", gap.c_str(), report.pairs,
-        report.gap_reduced ? " (too little overlaps farther apart)" : "");
+  print("depth of one image reprojected into another %s frames on, %d pairs%s%s\n", gap.c_str(), report.pairs,
+        report.gap_reduced ? " (too little overlaps farther apart)" : "",
+        results.with_measured_camera ? ", with the camera that the images ask for" : "");
   print("%s", convention_table(report, sequence.camera()).c_str());
   print("%s\n", report.verdict.c_str());
-  print("%s\n", registration.text.c_str());
+  print("%s\n", results.registration->text.c_str());
+  if (!results.camera) return;
+  print("%s%s\n", camera_table(*results.camera, sequence.camera()).c_str(), camera_verdict(*results.camera).c_str());
 }
 
 void print_cloud(const Sequence& sequence, const CloudCheckReport& report) {
@@ -160,9 +167,10 @@ void run(CheckFlags flags) {
         sequence.size(), frames.size(), sequence.camera().width, sequence.camera().height);
   CheckResults results;
   if (!frames.empty()) {
-    results.conventions = check_depth(sequence, frames, flags.conventions);
-    results.registration = check_edges(sequence, frames);
-    print_depth(sequence, *results.conventions, *results.registration);
+    results.conventions = check_depth(sequence, sequence.camera(), frames, flags.conventions);
+    results.registration = depth_registration(sequence);
+    check_camera_by_depth(sequence, frames, flags, results);
+    print_depth(sequence, results);
   }
   if (!flags.cloud.empty()) {
     results.cloud = check_with_cloud(sequence, flags);
@@ -188,9 +196,10 @@ void run(CheckFlags flags) {
 }  // namespace
 
 void add_check(CLI::App& app, Common& common) {
-  CLI::App* command = add_command(app, common, "check",
-                                  "prove by the images what fy, poses, numbering, depth scale and cloud mean; ends "
-                                  "with 0 if the data agree with their files, with 3 if they do not or do not tell");
+  CLI::App* command =
+      add_command(app, common, "check",
+                  "prove by the images what camera, poses, numbering, times, depth scale and cloud mean; "
+                  "ends with 0 if the data agree with their files, with 3 if they do not or do not tell");
   auto flags = std::make_shared<CheckFlags>();
   add_sequence_flags(command, flags->sequence);
   CLI::Option* cloud = command->add_option(

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "odosplat/cloud/check/camera_fit.hpp"
 #include "odosplat/cloud/check/cloud_check.hpp"
 #include "odosplat/eval/convention_check.hpp"
 #include "odosplat/eval/registration_check.hpp"
@@ -17,6 +18,8 @@ namespace odosplat::apps {
 struct CheckResults {
   std::optional<ConventionReport> conventions;     // by depth images
   std::optional<RegistrationReport> registration;  // by depth images
+  std::optional<CameraFit> camera;                 // by depth images
+  bool with_measured_camera = false;               // conventions are judged with that camera, not the declared one
   std::optional<CloudCheckReport> cloud;
   TextureSummary texture;
 };
