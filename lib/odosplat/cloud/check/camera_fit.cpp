@@ -26,7 +26,8 @@ constexpr double determined_share = 0.3;
 // Floors of the sigmas: errors of patches and planes that more patches do not reduce.
 const StateVector sigma_floor{0.0015, 0.001, 0.001, 0.002, 0.001, 0.002, 0.001};
 constexpr double held_deviation = 1e-7;  // prior of what stays as declared
-constexpr double settled_sigmas = 1.0;   // the last step must be smaller
+constexpr int most_rounds = 8;           // per stage
+constexpr double settled_sigmas = 0.25;  // a step of less than this ends a stage
 constexpr double most_pose_m = 0.09;     // noise of the poses beyond which the camera cannot be told from it
 constexpr double most_pose_rad = 0.09;
 
@@ -34,12 +35,11 @@ constexpr double most_pose_rad = 0.09;
 struct MotionStage {
   double motion;  // as a share of the image's width
   int pairs;
-  int rounds;
 };
 
 std::array<MotionStage, 4> stages_of(const CameraFitOptions& options) {
   const int few = std::max(2 * least_pairs, options.pairs / 2);
-  return {{{0.03, few, 2}, {0.06, few, 2}, {0.12, options.pairs, 2}, {0.2, options.pairs, 3}}};
+  return {{{0.03, few}, {0.06, few}, {0.12, options.pairs}, {0.2, options.pairs}}};
 }
 
 bool measure(const CameraFitInput& input, const PosesOverTime& poses, const StateVector& state,
@@ -50,6 +50,21 @@ bool measure(const CameraFitInput& input, const PosesOverTime& poses, const Stat
   }
   std::erase_if(parts, [](const PairPart& part) { return part.equations.empty(); });
   return parts.size() >= static_cast<std::size_t>(least_pairs);
+}
+
+StateVector sigma_of(const CameraStep& last, const std::array<Estimated, unknown_count>& estimated) {
+  StateVector sigma = StateVector::Zero();
+  for (int k = 0; k < unknown_count; ++k) {
+    if (estimated[static_cast<std::size_t>(k)] != Estimated::yes) continue;
+    std::vector<double> without;
+    for (const StateVector& value : last.without) without.push_back(value[k]);
+    sigma[k] = with_sigma(0.0, std::sqrt(last.covariance(k, k)), sigma_floor[k], without).sigma;
+  }
+  return sigma;
+}
+
+bool settled(const CameraStep& step, const StateVector& sigma) {
+  return (step.value.cwiseAbs().array() <= settled_sigmas * sigma.array()).all();
 }
 
 /// The state of the fit after its last stage.
@@ -71,8 +86,10 @@ FitRun run_stages(const CameraFitInput& input, const PosesOverTime& poses, const
   const std::array<MotionStage, 4> stages = stages_of(options);
   double work = 0.0;
   double done = 0.0;
-  for (const MotionStage& stage : stages) work += stage.pairs * stage.rounds;
+  for (const MotionStage& stage : stages) work += stage.pairs;
   for (const MotionStage& stage : stages) {
+    if (input.progress) input.progress(done / work);
+    done += stage.pairs;
     std::vector<PairPart> parts;
     for (const CameraPair& pair : camera_pairs(input, poses, State::from(run.total), stage.motion, stage.pairs)) {
       parts.emplace_back();
@@ -80,9 +97,8 @@ FitRun run_stages(const CameraFitInput& input, const PosesOverTime& poses, const
     }
     // So much motion is not there: what was found with less of it counts.
     if (parts.size() < static_cast<std::size_t>(least_pairs)) break;
-    for (int round = 0; round < stage.rounds; ++round) {
-      if (input.progress) input.progress(done / work);
-      done += stage.pairs;
+    bool ends = false;
+    for (int round = 0; round < most_rounds && !ends; ++round) {
       if (!measure(input, poses, run.total, parts)) {
         run.failure = "too few patches are found again in other images";
         return run;
@@ -93,6 +109,7 @@ FitRun run_stages(const CameraFitInput& input, const PosesOverTime& poses, const
       }
       run.total += run.last.value;
       for (PairPart& part : parts) part.pair.T_to_given = SE3::exp(part.change) * part.pair.T_to_given;
+      ends = settled(run.last, sigma_of(run.last, estimated));
     }
     run.parts = std::move(parts);
   }
@@ -104,17 +121,6 @@ FitRun run_stages(const CameraFitInput& input, const PosesOverTime& poses, const
     run.failure = "the poses are off by too much";
   }
   return run;
-}
-
-StateVector sigma_of(const CameraStep& last, const std::array<Estimated, unknown_count>& estimated) {
-  StateVector sigma = StateVector::Zero();
-  for (int k = 0; k < unknown_count; ++k) {
-    if (estimated[static_cast<std::size_t>(k)] != Estimated::yes) continue;
-    std::vector<double> without;
-    for (const StateVector& value : last.without) without.push_back(value[k]);
-    sigma[k] = with_sigma(0.0, std::sqrt(last.covariance(k, k)), sigma_floor[k], without).sigma;
-  }
-  return sigma;
 }
 
 /// Distances before and after, from the measurements at the final state.
@@ -237,8 +243,7 @@ CameraFit fit_camera(const CameraFitInput& input, const Camera& declared, const 
       continue;
     }
     fit.state = State::from(run.total);
-    for (int k = 0; k < unknown_count; ++k) {
-      if (std::abs(run.last.value[k]) <= settled_sigmas * fit.sigma[k]) continue;
+    if (!settled(run.last, fit.sigma)) {
       fit.reason = "the estimate does not settle";
       return fit;
     }
