@@ -11,7 +11,7 @@ namespace odosplat {
 namespace {
 
 std::string fixed(double value, int decimals) {
-  const std::string text = formatted("%.*f", std::clamp(decimals, 0, 12), value);
+  std::string text = formatted("%.*f", std::clamp(decimals, 0, 12), value);
   // Removes the sign of a negative number that was rounded to zero ("-0.0").
   if (text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos) return text.substr(1);
   return text;

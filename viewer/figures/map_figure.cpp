@@ -13,7 +13,7 @@
 namespace odosplat {
 namespace {
 
-constexpr double elevation = 0.8;  // [rad]
+constexpr double view_elevation = 0.8;  // [rad]
 const Rgb cameras_color(213, 94, 0);
 
 struct MapLayout {
@@ -45,10 +45,10 @@ MapLayout lay_out(const MapFigure& figure) {
     require(layout.view.size == below, "view size", "that of the page under the title");
   } else {
     const double azimuth = open_azimuth(layout.scenery);
-    std::vector<Eigen::Vector3d> seen = facing_extent(layout.scenery, azimuth, elevation);
+    std::vector<Eigen::Vector3d> seen = facing_extent(layout.scenery, azimuth, view_elevation);
     const auto positions = positions_of(figure.cameras);
     seen.insert(seen.end(), positions.begin(), positions.end());
-    layout.view = view_from_corner(layout.scenery.axes, seen, below, 0.03, azimuth, elevation);
+    layout.view = view_from_corner(layout.scenery.axes, seen, below, 0.03, azimuth, view_elevation);
   }
   return layout;
 }

@@ -121,7 +121,8 @@ cv::Mat3b draw_trajectories(const TrajectoriesFigure& figure) {
   for (int k = 0; k < count; ++k) {
     const TrajectoryPanel& panel = figure.panels[static_cast<std::size_t>(k)];
     const double x = gap + (k % columns) * (width + gap);
-    const double y = (k / columns) * row_height + 0.2 * font;
+    const int row = k / columns;
+    const double y = row * row_height + 0.2 * font;
     const FittedText words = fit_text(panel.words, words_size, width, 0.6);
     page.text(words.text, {x + 0.5 * width, y + 0.5 * head},
               {.size = static_cast<double>(words.size), .x = AlignX::center});

@@ -82,7 +82,9 @@ TemporaryFile::TemporaryFile(const std::string& path, mode_t mode, const std::st
   const std::string start = (whole.parent_path() / stem_of(whole.filename().string())).string() + std::string(mark);
   const std::string end = std::string(part_ending) + extension;
   while (true) {
-    name_ = start + random_digits() + end;
+    name_ = start;
+    name_ += random_digits();
+    name_ += end;
     file_ = ::open(name_.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, mode);
     if (file_ < 0 && (errno == EEXIST || errno == EINTR)) continue;
     if (file_ < 0) fail();

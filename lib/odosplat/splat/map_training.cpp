@@ -72,6 +72,7 @@ TrainedMap finish_training(const compute::Context& context, const Trainer& train
   notes.push_back("iterations_done " + std::to_string(trainer.iteration()));
   add(quality.to_lines());
   std::vector<SE3> poses;
+  poses.reserve(static_cast<std::size_t>(views.count()));
   for (int i = 0; i < views.count(); ++i) poses.push_back(views.T_world_camera(i));
   add(place_lines(thinned_places(poses)));
   add(facts.notes);

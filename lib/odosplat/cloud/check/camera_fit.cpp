@@ -14,7 +14,6 @@ namespace odosplat {
 namespace {
 
 using StateVector = CameraState::Vector;
-using State = CameraState;
 
 constexpr int least_pairs = 8;
 constexpr int unknown_count = CameraState::size;
@@ -45,7 +44,7 @@ std::array<MotionStage, 4> stages_of(const CameraFitOptions& options) {
 bool measure(const CameraFitInput& input, const PosesOverTime& poses, const StateVector& state,
              std::vector<PairPart>& parts) {
   for (PairPart& part : parts) {
-    part.equations = camera_equations(input, poses, State::from(state), part.pair);
+    part.equations = camera_equations(input, poses, CameraState::from(state), part.pair);
     part.change.setZero();
   }
   std::erase_if(parts, [](const PairPart& part) { return part.equations.empty(); });
@@ -91,7 +90,7 @@ FitRun run_stages(const CameraFitInput& input, const PosesOverTime& poses, const
     if (input.progress) input.progress(done / work);
     done += stage.pairs;
     std::vector<PairPart> parts;
-    for (const CameraPair& pair : camera_pairs(input, poses, State::from(run.total), stage.motion, stage.pairs)) {
+    for (const CameraPair& pair : camera_pairs(input, poses, CameraState::from(run.total), stage.motion, stage.pairs)) {
       parts.emplace_back();
       parts.back().pair = pair;
     }
@@ -174,25 +173,26 @@ double corner_reach(const Camera& camera) {
 void judge(CameraFit& fit, const Camera& camera, const CameraFitOptions& o) {
   Judge judge(fit, o.sure);
   const Measured focal = fit.focal_px(camera);
-  judge.add("focal length", {State::at_focal}, o.focal_tolerance,
+  judge.add("focal length", {CameraState::at_focal}, o.focal_tolerance,
             formatted("the images want %.2f +- %.2f px, the files say %.2f", focal.value, focal.sigma, camera.fx));
   const Measured u = fit.center_u_px(camera);
   const Measured v = fit.center_v_px(camera);
-  judge.add("principal point", {State::at_center_u, State::at_center_v}, o.center_tolerance * camera.width / camera.fx,
+  judge.add("principal point", {CameraState::at_center_u, CameraState::at_center_v},
+            o.center_tolerance * camera.width / camera.fx,
             formatted("the images want %.1f +- %.1f, %.1f +- %.1f px, the files say %.1f, %.1f", u.value, u.sigma,
                       v.value, v.sigma, camera.cx, camera.cy));
   const Measured corner = fit.corner_shift_px(camera);
-  judge.add("distortion", {State::at_radial}, o.radial_tolerance * camera.width / corner_reach(camera),
+  judge.add("distortion", {CameraState::at_radial}, o.radial_tolerance * camera.width / corner_reach(camera),
             formatted("the images are distorted by %.1f +- %.1f px in the corners beyond what the files say",
                       corner.value, corner.sigma));
   const Measured factor = fit.depth_factor();
   judge.add(
-      "depth scale", {State::at_depth_factor}, o.depth_tolerance,
+      "depth scale", {CameraState::at_depth_factor}, o.depth_tolerance,
       formatted("depth is to be multiplied by %.3f +- %.3f to have the unit of the poses", factor.value, factor.sigma));
   const double offset = fit.state.time_offset;
-  judge.add("time offset", {State::at_time_offset}, o.time_tolerance,
+  judge.add("time offset", {CameraState::at_time_offset}, o.time_tolerance,
             formatted("the images were taken %.1f +- %.1f ms %s the times of their poses", 1000.0 * std::abs(offset),
-                      1000.0 * fit.sigma[State::at_time_offset], offset > 0.0 ? "after" : "before"));
+                      1000.0 * fit.sigma[CameraState::at_time_offset], offset > 0.0 ? "after" : "before"));
 }
 
 }  // namespace
@@ -206,20 +206,20 @@ void CameraFitOptions::check() const {
 }
 
 Measured CameraFit::focal_px(const Camera& camera) const {
-  return {camera.fx * (1.0 + state.camera.focal), camera.fx * sigma[State::at_focal]};
+  return {camera.fx * (1.0 + state.camera.focal), camera.fx * sigma[CameraState::at_focal]};
 }
 Measured CameraFit::center_u_px(const Camera& camera) const {
-  return {camera.cx + camera.fx * state.camera.center_u, camera.fx * sigma[State::at_center_u]};
+  return {camera.cx + camera.fx * state.camera.center_u, camera.fx * sigma[CameraState::at_center_u]};
 }
 Measured CameraFit::center_v_px(const Camera& camera) const {
-  return {camera.cy + camera.fy * state.camera.center_v, camera.fy * sigma[State::at_center_v]};
+  return {camera.cy + camera.fy * state.camera.center_v, camera.fy * sigma[CameraState::at_center_v]};
 }
 Measured CameraFit::corner_shift_px(const Camera& camera) const {
-  return {state.camera.radial * corner_reach(camera), sigma[State::at_radial] * corner_reach(camera)};
+  return {state.camera.radial * corner_reach(camera), sigma[CameraState::at_radial] * corner_reach(camera)};
 }
 Measured CameraFit::depth_factor() const {
   const double factor = std::exp(state.depth_factor);
-  return {factor, factor * sigma[State::at_depth_factor]};
+  return {factor, factor * sigma[CameraState::at_depth_factor]};
 }
 
 CameraFit fit_camera(const CameraFitInput& input, const Camera& declared, const CameraFitOptions& options) {
@@ -242,7 +242,7 @@ CameraFit fit_camera(const CameraFitInput& input, const Camera& declared, const 
       fit.estimated[static_cast<std::size_t>(worst)] = Estimated::open;
       continue;
     }
-    fit.state = State::from(run.total);
+    fit.state = CameraState::from(run.total);
     if (!settled(run.last, fit.sigma)) {
       fit.reason = "the estimate does not settle";
       return fit;

@@ -19,10 +19,10 @@ constexpr double spread_floor = 0.03;  // [px] lower limit for the spread of the
 // The errors of a pair's patches are correlated (lens, shutter, depth, planes): its equations count as this much fewer.
 constexpr double correlated = 5.0;
 // Range of the poses' noise.
-constexpr double least_pose_m = 1e-4;
-constexpr double most_pose_m = 0.1;
-constexpr double least_pose_rad = 3e-5;
-constexpr double most_pose_rad = 0.1;
+constexpr double noise_least_m = 1e-4;
+constexpr double noise_most_m = 0.1;
+constexpr double noise_least_rad = 3e-5;
+constexpr double noise_most_rad = 0.1;
 
 using StateVector = CameraState::Vector;
 using StateMatrix = CameraState::Matrix;
@@ -88,16 +88,16 @@ ReducedPair reduce(const PairSums& sums, const Vector6d& information) {
 }
 
 /// The camera's step for one level of the poses' noise.
-struct Solution {
+struct CameraSolution {
   StateMatrix A;
   StateVector b;
   StateVector value;
   double cost = std::numeric_limits<double>::infinity();  // -2 times the logarithm of the noise's likelihood
 };
 
-Solution solve_with(const std::vector<PairSums>& sums, const PoseNoise& noise, const StateVector& prior,
-                    const StateVector& so_far) {
-  Solution solution;
+CameraSolution solve_with(const std::vector<PairSums>& sums, const PoseNoise& noise, const StateVector& prior,
+                          const StateVector& so_far) {
+  CameraSolution solution;
   solution.A = prior.asDiagonal();
   solution.b = -prior.cwiseProduct(so_far);
   double cost = prior.dot(so_far.cwiseProduct(so_far));
@@ -119,16 +119,17 @@ PoseNoise most_likely_noise(const std::vector<PairSums>& sums, const StateVector
   PoseNoise best;
   double least = std::numeric_limits<double>::infinity();
   const auto attempt = [&](double meters, double radians) {
-    const PoseNoise noise{std::clamp(meters, least_pose_m, most_pose_m),
-                          std::clamp(radians, least_pose_rad, most_pose_rad)};
+    const PoseNoise noise{std::clamp(meters, noise_least_m, noise_most_m),
+                          std::clamp(radians, noise_least_rad, noise_most_rad)};
     const double cost = solve_with(sums, noise, prior, so_far).cost;
     if (!(cost < least)) return;
     least = cost;
     best = noise;
   };
   constexpr double coarse = 4.0;
-  for (double meters = least_pose_m; meters < coarse * most_pose_m; meters *= coarse) {
-    for (double radians = least_pose_rad; radians < coarse * most_pose_rad; radians *= coarse) attempt(meters, radians);
+  for (double meters = noise_least_m; meters < coarse * noise_most_m; meters *= coarse) {
+    for (double radians = noise_least_rad; radians < coarse * noise_most_rad; radians *= coarse)
+      attempt(meters, radians);
   }
   for (const double fine : {2.0, 1.4, 1.2}) {
     const PoseNoise middle = best;
@@ -164,7 +165,7 @@ CameraStep solve_camera(std::vector<PairPart>& parts, const StateVector& prior, 
   CameraStep step;
   std::vector<PairPart> unbound = parts;
   std::vector<PairSums> sums(parts.size());
-  Solution solution;
+  CameraSolution solution;
   for (int pass = 0; pass < reweighted; ++pass) {
     const double spread = spread_of(unbound, step.value);
     // At first the distances are large by the errors that are looked for: weights as with free poses.

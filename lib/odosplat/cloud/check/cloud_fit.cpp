@@ -18,15 +18,15 @@ namespace {
 
 constexpr int unknowns = 8;  // shift, rotation, ln scale, ln focal length
 constexpr int groups = 8;
-constexpr std::size_t least_matches = 40;  // per pair
-constexpr double most_shift = 6.0;         // [px] search radius for a patch
-constexpr double least_share = 0.1;        // share of the patches that must be found
-constexpr double clear_texture = 0.02;     // directions with a smaller eigenvalue of a match's information are not used
-constexpr double least_spread = 0.05;      // [px] lower limit for the spread of the matches
+constexpr std::size_t least_matches = 40;    // per pair
+constexpr double patch_search_radius = 6.0;  // [px] search radius for a patch
+constexpr double least_share = 0.1;          // share of the patches that must be found
+constexpr double clear_texture = 0.02;  // directions with a smaller eigenvalue of a match's information are not used
+constexpr double least_spread = 0.05;   // [px] lower limit for the spread of the matches
 constexpr double prior_turn = 0.2;
 constexpr double prior_scale = 0.2;
 constexpr double prior_share = 0.5;  // of the median depth
-constexpr double step = 1e-4;        // of numeric derivatives
+constexpr double fit_step = 1e-4;    // of numeric derivatives
 // Floors of the sigmas: errors due to poses, shutter and lens, which more patches do not reduce.
 constexpr double floor_scale = 0.002;
 constexpr double floor_offset = 0.002;  // of the median depth
@@ -105,7 +105,7 @@ Measurement measure(const CloudFitInput& input, const PointCloud& cloud, const s
   parallel_for(static_cast<int>(patches.size()), 32, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      matches[at] = match_patch(patches[at], from, to, camera, T_to_from, most_shift);
+      matches[at] = match_patch(patches[at], from, to, camera, T_to_from, patch_search_radius);
     }
   });
   Measurement result;
@@ -122,10 +122,10 @@ Measurement measure(const CloudFitInput& input, const PointCloud& cloud, const s
     const Eigen::Vector3d p = T_world_from.translation() + ray / static_cast<double>(patch.inverse_depth);
     Eigen::Matrix<double, 2, unknowns> J;
     for (int k = 0; k < unknowns; ++k) {
-      const Vector8d d = step * Vector8d::Unit(k);
+      const Vector8d d = fit_step * Vector8d::Unit(k);
       J.col(k) = (predict(d, patch, p, n, middle, camera, T_world_from, T_world_to) -
                   predict(-d, patch, p, n, middle, camera, T_world_from, T_world_to)) /
-                 (2.0 * step);
+                 (2.0 * fit_step);
     }
     if (!J.allFinite()) continue;
     const Eigen::Vector2d away = match.found - match.predicted;
@@ -348,8 +348,8 @@ CloudFit fit_cloud(const CloudFitInput& input, const CloudFitOptions& options) {
   }
   Eigen::Matrix<double, 3, unknowns> origin_slope;
   for (int k = 0; k < unknowns; ++k) {
-    const Vector8d d = step * Vector8d::Unit(k);
-    origin_slope.col(k) = (origin_of(so_far + d) - origin_of(so_far - d)) / (2.0 * step);
+    const Vector8d d = fit_step * Vector8d::Unit(k);
+    origin_slope.col(k) = (origin_of(so_far + d) - origin_of(so_far - d)) / (2.0 * fit_step);
   }
   const Matrix8d& covariance = solution.covariance;
   fit.world_from_cloud = state.world_from_cloud;

@@ -19,6 +19,7 @@ constexpr double distant_share = 1e-4;  // factor on the inverse depth; so far a
 
 void level(std::vector<VisiblePatch>& patches, PatchDepths depths) {
   std::vector<double> inverse;
+  inverse.reserve(patches.size());
   for (const VisiblePatch& p : patches) inverse.push_back(static_cast<double>(p.inverse_depth));
   const double middle = median_of(std::move(inverse)) * (depths == PatchDepths::distant ? distant_share : 1.0);
   for (VisiblePatch& p : patches) {

@@ -135,14 +135,14 @@ std::optional<double> patch_difference(const VisiblePatch& patch, const GrayImag
 
 std::optional<PatchMatch> match_patch(const VisiblePatch& patch, const GrayImage& image, const GrayImage& other,
                                       const Camera& camera, const SE3& T_other_image, double most_shift,
-                                      const std::optional<Eigen::Vector2d>& start) {
+                                      const std::optional<Eigen::Vector2d>& search_from) {
   Places places;
   if (!project_patch(patch, camera, T_other_image, places)) return std::nullopt;
   Values here = values_of(patch, image);
   if (!normalise(here, 0.0)) return std::nullopt;
-  const Eigen::Vector2f first =
-      start ? Eigen::Vector2f(start->cast<float>() - places[pixels / 2]) : Eigen::Vector2f::Zero().eval();
-  Eigen::Vector2f shift = first;
+  const Eigen::Vector2f first_shift =
+      search_from ? Eigen::Vector2f(search_from->cast<float>() - places[pixels / 2]) : Eigen::Vector2f::Zero().eval();
+  Eigen::Vector2f shift = first_shift;
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (int step = 0;; ++step) {
     Values there;
@@ -187,7 +187,7 @@ std::optional<PatchMatch> match_patch(const VisiblePatch& patch, const GrayImage
     }
     // At most one pixel per step, since gradients are valid only near the current position.
     shift += (change / std::max(1.0, change.norm())).cast<float>();
-    if ((shift - first).norm() > static_cast<float>(most_shift)) return std::nullopt;
+    if ((shift - first_shift).norm() > static_cast<float>(most_shift)) return std::nullopt;
   }
   const Eigen::Vector2f middle = places[pixels / 2];
   return PatchMatch{middle.cast<double>(), (middle + shift).cast<double>(), information};

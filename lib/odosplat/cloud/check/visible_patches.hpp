@@ -47,11 +47,11 @@ struct PatchMatch {
   Eigen::Matrix2d information;  // of `found`, from the gradients of normalised grey values
 };
 
-/// Searches the patch around `start` (by default its projection) by shifting it (Lucas and Kanade 1981), independent of brightness
-/// and contrast. None if it leaves the image, is found more than most_shift [px] from the start, or has a correlation of less
+/// Searches the patch around `search_from` (by default its projection) by shifting it (Lucas and Kanade 1981), independent of brightness
+/// and contrast. None if it leaves the image, is found more than most_shift [px] from there, or has a correlation of less
 /// than 0.8 there.
 std::optional<PatchMatch> match_patch(const VisiblePatch& patch, const GrayImage& image, const GrayImage& other,
                                       const Camera& camera, const SE3& T_other_image, double most_shift,
-                                      const std::optional<Eigen::Vector2d>& start = std::nullopt);
+                                      const std::optional<Eigen::Vector2d>& search_from = std::nullopt);
 
 }  // namespace odosplat

@@ -12,7 +12,7 @@ std::string join(const std::string& folder, const std::string& name) {
 }
 
 std::string listed_file(const std::string& folder, const std::string& written) {
-  const std::string file = join(folder, written);
+  std::string file = join(folder, written);
   if (written.find('\\') == std::string::npos || file_exists(file)) return file;
   std::string turned = written;
   std::replace(turned.begin(), turned.end(), '\\', '/');

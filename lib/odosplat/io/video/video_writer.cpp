@@ -46,7 +46,7 @@ void check_video_name(const std::string& path) {
   throw InputError(path, "a video's name must end in .avi or .mp4");
 }
 
-VideoWriter::VideoWriter(std::string path, cv::Size size, double fps) {
+VideoWriter::VideoWriter(const std::string& path, cv::Size size, double fps) {
   check_video_name(path);
   require(size.width > 0 && size.height > 0 && size.width % 2 == 0 && size.height % 2 == 0, "size of a video",
           "even and positive");

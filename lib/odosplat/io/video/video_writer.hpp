@@ -16,7 +16,7 @@ class VideoWriter {
  public:
   /// size [px] of all frames, width and height even; fps > 0. Throws InputError for another extension, size or rate,
   /// and if the file or a video of that kind cannot be written.
-  VideoWriter(std::string path, cv::Size size, double fps);
+  VideoWriter(const std::string& path, cv::Size size, double fps);
   ~VideoWriter();
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;

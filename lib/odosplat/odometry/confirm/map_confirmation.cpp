@@ -20,7 +20,8 @@ struct Offsets {
     constexpr float middle = 0.5F * (patch_side - 1);
     for (int k = 0; k < patch_pixels; ++k) {
       u[k] = static_cast<float>(k % patch_side) - middle;
-      v[k] = static_cast<float>(k / patch_side) - middle;
+      const int row = k / patch_side;
+      v[k] = static_cast<float>(row) - middle;
     }
   }
 };
@@ -63,6 +64,7 @@ double share_against(const std::vector<SeenSquare>& squares) {
   constexpr int enough = 20;
   if (squares.empty()) return 0.0;
   std::vector<double> unexplained;
+  unexplained.reserve(squares.size());
   for (const SeenSquare& s : squares) {
     unexplained.push_back(s.length * std::sqrt(std::max(0.0, 1.0 - s.correlation * s.correlation)));
   }
@@ -236,7 +238,7 @@ MisfitSystem ViewPatches::misfit(const FramePyramid& image, const SE3& T_camera_
     const double rows = std::clamp(row, 0.0, 1.0) - 0.5;
     const SE3 T_rows_view = SE3::exp(rows * correction.readout * velocity) * T_camera_view;
     const Eigen::Matrix3d R = T_rows_view.rotation().toRotationMatrix();
-    const Eigen::Vector3d t = T_rows_view.translation();
+    const Eigen::Vector3d& t = T_rows_view.translation();
     for (int i = 0; i < patch_pixels && inside; ++i) {
       const Eigen::Vector3d p = R * patch.point(i) + t;
       const double x = p.x() / p.z();

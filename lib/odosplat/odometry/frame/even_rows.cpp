@@ -22,7 +22,7 @@ double difference(const RowGain& a, const RowGain& b) {
 
 }  // namespace
 
-EvenFrame make_even(std::shared_ptr<const FramePyramid> taken, const RowGain& row_gain) {
+EvenFrame make_even(const std::shared_ptr<const FramePyramid>& taken, const RowGain& row_gain) {
   EvenFrame frame{taken, taken, row_gain};
   if (!row_gain.empty()) frame.even = std::make_shared<FramePyramid>(divide_rows(*taken, row_gain));
   return frame;

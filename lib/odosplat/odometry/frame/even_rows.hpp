@@ -17,7 +17,7 @@ struct EvenFrame {
   RowGain row_gain;
 };
 
-EvenFrame make_even(std::shared_ptr<const FramePyramid> taken, const RowGain& row_gain = {});
+EvenFrame make_even(const std::shared_ptr<const FramePyramid>& taken, const RowGain& row_gain = {});
 
 /// Estimates the frame's row gain against the reference, divides the rows by it and aligns the frame again; repeated at
 /// most once, while the gain still changes. True if anything was changed. alignment: of frame.even with the reference,

@@ -162,7 +162,7 @@ Alignment FrameTracker::search_references(const FramePyramid& pyramid) {
     for (const double angle : {0.05, 0.12}) {
       for (const SE3& T : rotated_guesses(T_world_host, angle)) guesses.push_back(T.inverse() * T_world_host);
     }
-    const Alignment alignment = aligner_.align_best(*references_[k].points, pyramid, guesses, {});
+    Alignment alignment = aligner_.align_best(*references_[k].points, pyramid, guesses, {});
     if (believed(alignment, true)) {
       current_ = k;
       first_rmse_ = 0.0;

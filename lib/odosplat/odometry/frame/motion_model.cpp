@@ -59,7 +59,9 @@ std::vector<SE3> rotated_guesses(const SE3& T_world_camera, double angle) {
   std::vector<SE3> guesses;
   for (int i = 0; i < 27; ++i) {
     if (i == 13) continue;  // no turn at all
-    const Eigen::Vector3d axis(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const int second = i / 3;
+    const int third = i / 9;
+    const Eigen::Vector3d axis(i % 3 - 1, second % 3 - 1, third - 1);
     guesses.push_back(T_world_camera * SE3(so3_exp(angle * axis), Eigen::Vector3d::Zero()));
   }
   return guesses;

@@ -35,8 +35,8 @@ cv::Mat1f splat(const cv::Size& size, int level, std::span<const TransferredPoin
   cv::Mat1f sum(size, 0.0F);
   cv::Mat1f count(size, 0.0F);
   for (const TransferredPoint& p : projected) {
-    const int x = static_cast<int>(p.u + 0.5F) >> level;
-    const int y = static_cast<int>(p.v + 0.5F) >> level;
+    const int x = static_cast<int>(std::lround(p.u)) >> level;
+    const int y = static_cast<int>(std::lround(p.v)) >> level;
     if (x < 1 || y < 1 || x >= size.width - 1 || y >= size.height - 1) continue;
     sum(y, x) += p.q;
     count(y, x) += 1.0F;

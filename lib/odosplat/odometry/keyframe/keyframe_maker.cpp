@@ -20,7 +20,7 @@ Alignment find_in_view(const TrackingReference& reference, const FramePyramid& i
   if (context.first || context.distrust_map) {
     std::vector<SE3> guesses{SE3()};
     for (const SE3& turned : rotated_guesses(SE3(), options.far_off_angle)) guesses.push_back(turned);
-    const Alignment found = aligner.align_best(reference, image, guesses, {});
+    Alignment found = aligner.align_best(reference, image, guesses, {});
     // With so many guesses, one may fit a map of wrong colours by chance: then the caller's pose is the better start.
     if (context.distrust_map || (found.finished && found.correlation >= options.far_off_correlation)) return found;
   }

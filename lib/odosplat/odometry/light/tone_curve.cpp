@@ -12,14 +12,14 @@ namespace odosplat {
 namespace {
 
 constexpr int least_tone_points = 300;  // in view
-constexpr float steps = 255.0F;
+constexpr float gray_steps = 255.0F;
 
 CurveFitOptions curve_fit(const ToneOptions& options) {
   return {options.spans, options.sigma, options.noise, options.huber, options.explained};
 }
 
 float value_at(const ToneCurve& curve, float grey) {
-  const float x = std::clamp(grey, 0.0F, 1.0F) * steps;
+  const float x = std::clamp(grey, 0.0F, 1.0F) * gray_steps;
   const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(x), curve.size() - 2);
   return curve[i] + (x - static_cast<float>(i)) * (curve[i + 1] - curve[i]);
 }
@@ -54,10 +54,10 @@ std::optional<ToneCurve> estimate_tone(const TrackingReference& reference, const
   if (size < options.least * gain) return {};
   ToneCurve curve;
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    const double grey = static_cast<double>(i) / steps;
+    const double grey = static_cast<double>(i) / gray_steps;
     const Splines at = splines_at(grey, options.spans);
     curve[i] = static_cast<float>(grey + at.value.dot(coefficients->segment<4>(at.first)) / gain);
-    if (i > 0 && !((curve[i] - curve[i - 1]) * steps >= options.min_slope)) return {};
+    if (i > 0 && !((curve[i] - curve[i - 1]) * gray_steps >= options.min_slope)) return {};
   }
   return curve;
 }

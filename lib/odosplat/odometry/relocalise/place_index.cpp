@@ -59,7 +59,7 @@ PlaceIndex::PlaceIndex(const Camera& camera, MapView& map, const std::vector<SE3
     cv::Mat1b descriptors;
     for (int k = 0; k < s.descriptors.rows; ++k) {
       const cv::Point2f& corner = s.corners[static_cast<std::size_t>(k)];
-      const double z = view.depth(static_cast<int>(corner.y + 0.5F), static_cast<int>(corner.x + 0.5F));
+      const double z = view.depth(static_cast<int>(std::lround(corner.y)), static_cast<int>(std::lround(corner.x)));
       if (!(z > 0.0)) continue;
       corners.push_back(corner);
       descriptors.push_back(s.descriptors.row(k));

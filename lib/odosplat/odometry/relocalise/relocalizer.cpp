@@ -115,9 +115,12 @@ Relocalization Relocalizer::look_up(const GrayImage& image, const std::optional<
   candidates = distinct(std::move(candidates), static_cast<std::size_t>(options_.finalists));
   for (Candidate& candidate : candidates) candidate = {candidate.T_world_camera(), {SE3()}, {}};
   align(candidates, pyramid);
-  candidates = distinct(std::move(candidates), candidates.size());
+  const std::size_t all =
+      candidates.size();  // not as an argument beside the moved candidates: their order is unspecified
+  candidates = distinct(std::move(candidates), all);
 
   std::vector<Finalist> finalists;
+  finalists.reserve(candidates.size());
   for (const Candidate& candidate : candidates) finalists.push_back(verify(candidate, pyramid));
   const auto order = best_of(finalists.size(), finalists.size(), [&](std::size_t k) {
     return finalists[k].evidence.score + (finalists[k].fault.empty() ? 2.0 : 0.0);

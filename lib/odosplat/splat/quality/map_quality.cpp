@@ -44,6 +44,7 @@ void mark_odd(std::vector<ViewQuality>& views) {
   constexpr double least_fall_db = 4.0;
   constexpr double least_factor = 3.0;
   std::vector<double> psnr;
+  psnr.reserve(views.size());
   for (const ViewQuality& view : views) psnr.push_back(view.psnr_db);
   const double usual_psnr = upper_median(psnr, -1.0);
   const double fall = std::max(least_fall_db, deviations * robust_deviation(psnr, usual_psnr));
@@ -104,6 +105,7 @@ MapQuality judge_map(const std::vector<ViewQuality>& views, const CloudCoverage&
                      const std::optional<GeometryDoubt>& doubt, const TrainingEvidence& training) {
   MapQuality q;
   std::vector<double> psnr;
+  psnr.reserve(views.size());
   for (const ViewQuality& view : views) psnr.push_back(view.psnr_db);
   q.psnr_db = upper_median(psnr, -1.0);
   q.depth_error_m = upper_median(known(views, &ViewQuality::depth_error_m), -1.0);

@@ -33,7 +33,7 @@ PixelSelection::PixelSelection(const compute::Context& context, std::size_t lane
 // Marks the blocks, and sums the marks over all rectangles that begin at the image's first corner.
 void PixelSelection::mark(const Viewpoint& view, const std::vector<cv::Point>& pixels) {
   const auto [width, height, columns, rows] = view.grid;
-  const auto stride = static_cast<std::size_t>((width + raster_block - 1) / raster_block + 1);
+  const auto stride = static_cast<std::size_t>((width + raster_block - 1) / raster_block) + 1;
   const auto block_rows = static_cast<std::size_t>((height + raster_block - 1) / raster_block);
   places_.clear();
   blocks_.assign(view.tiles, 0);
@@ -46,7 +46,8 @@ void PixelSelection::mark(const Viewpoint& view, const std::vector<cv::Point>& p
     places_.push_back(p.y * width + p.x);
     const int in_tile =
         p.y % TILE_HEIGHT / raster_block * (TILE_WIDTH / raster_block) + p.x % TILE_WIDTH / raster_block;
-    blocks_[static_cast<std::size_t>(p.y / TILE_HEIGHT * columns + p.x / TILE_WIDTH)] |= 1U << in_tile;
+    const int tile = p.y / TILE_HEIGHT * columns + p.x / TILE_WIDTH;
+    blocks_[static_cast<std::size_t>(tile)] |= 1U << in_tile;
     sums_[static_cast<std::size_t>(p.y / raster_block + 1) * stride +
           static_cast<std::size_t>(p.x / raster_block + 1)] = 1;
   }

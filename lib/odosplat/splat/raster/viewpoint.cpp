@@ -10,10 +10,13 @@ Viewpoint make_viewpoint(const Camera& camera, const SE3& T_world_camera) {
   Viewpoint view;
   const SE3 T_camera_world = T_world_camera.inverse();
   const Eigen::Matrix3d R = T_camera_world.rotation_matrix();
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) view.pose[static_cast<std::size_t>(3 * r + c)] = static_cast<float>(R(r, c));
-    view.pose[static_cast<std::size_t>(9 + r)] = static_cast<float>(T_camera_world.translation()[r]);
-    view.pose[static_cast<std::size_t>(12 + r)] = static_cast<float>(T_world_camera.translation()[r]);
+  for (std::size_t r = 0; r < 3; ++r) {
+    const auto row = static_cast<Eigen::Index>(r);
+    for (std::size_t c = 0; c < 3; ++c) {
+      view.pose[3 * r + c] = static_cast<float>(R(row, static_cast<Eigen::Index>(c)));
+    }
+    view.pose[9 + r] = static_cast<float>(T_camera_world.translation()[row]);
+    view.pose[12 + r] = static_cast<float>(T_world_camera.translation()[row]);
   }
   const double margin_x = static_cast<double>(JACOBIAN_MARGIN) * 0.5 * camera.width / camera.fx;
   const double margin_y = static_cast<double>(JACOBIAN_MARGIN) * 0.5 * camera.height / camera.fy;

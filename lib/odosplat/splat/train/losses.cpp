@@ -40,7 +40,7 @@ void ImageLoss::prepare(int width, int height) {
   height_ = height;
   const int blocks = (width + item_pixels - 1) / item_pixels;
   stride_ = padding + blocks * item_pixels + padding;
-  const auto map = static_cast<std::size_t>(3 * height) * static_cast<std::size_t>(stride_);
+  const auto map = 3 * static_cast<std::size_t>(height) * static_cast<std::size_t>(stride_);
   moments_.resize(context_, 5 * map);
   partials_.resize(context_, 3 * map);
   spread_.resize(context_, 3 * map);
@@ -48,16 +48,16 @@ void ImageLoss::prepare(int width, int height) {
   moments_.fill_zero();
   partials_.fill_zero();
   spread_.fill_zero();
-  const auto values = static_cast<std::size_t>(3 * height) * static_cast<std::size_t>(blocks);
+  const auto values = 3 * static_cast<std::size_t>(height) * static_cast<std::size_t>(blocks);
   values_.resize(context_, 3 * values);
-  rows_.resize(context_, static_cast<std::size_t>(3 * height));
+  rows_.resize(context_, 3 * static_cast<std::size_t>(height));
 }
 
 void ImageLoss::evaluate(const Buffer<float>& rendered, const Buffer<float>& target, int width, int height,
                          Buffer<float>& gradient) {
   prepare(width, height);
   const std::int32_t blocks = (width + item_pixels - 1) / item_pixels;
-  const auto n = static_cast<std::size_t>(3 * height) * static_cast<std::size_t>(width);
+  const auto n = 3 * static_cast<std::size_t>(height) * static_cast<std::size_t>(width);
   gradient.resize(context_, n);
   const Range range =
       Range::grid(static_cast<std::size_t>(blocks) * static_cast<std::size_t>(height), 3, local_size, 1);
@@ -68,7 +68,7 @@ void ImageLoss::evaluate(const Buffer<float>& rendered, const Buffer<float>& tar
   const std::int32_t squared = options_.color_term == ColorTerm::squared_l2 ? 1 : 0;
   gradient_(range, rendered, target, spread_, gradient, values_, width, height, stride_,
             (1.0F - options_.ssim_weight) * per_value, options_.ssim_weight * per_value, squared);
-  rows_kernel_(Range::linear(static_cast<std::size_t>(3 * height), local_size), values_, rows_, blocks, height);
+  rows_kernel_(Range::linear(3 * static_cast<std::size_t>(height), local_size), values_, rows_, blocks, height);
 }
 
 LossValue ImageLoss::value() const {
@@ -78,7 +78,8 @@ LossValue ImageLoss::value() const {
   double sums[3] = {0.0, 0.0, 0.0};
   for (int kind = 0; kind < 3; ++kind) {
     for (int y = 0; y < height_; ++y)
-      sums[kind] += static_cast<double>(rows[static_cast<std::size_t>(kind * height_ + y)]);
+      sums[kind] += static_cast<double>(
+          rows[static_cast<std::size_t>(kind) * static_cast<std::size_t>(height_) + static_cast<std::size_t>(y)]);
     sums[kind] /= 3.0 * height_ * width_;
   }
   result.ssim = sums[0];
