@@ -7,9 +7,10 @@
 
 namespace odosplat::apps {
 
-/// Images, poses and depth images of a sequence for fit_camera, halved until they are at most 800 pixels wide. Depth images
-/// of another time than their colour images are moved to those's poses; a depth_camera's are registered with the colour
-/// camera as declared. Reading throws Interrupted after a signal. The sequence must outlive the result.
+/// Images, poses and depth images of a sequence for fit_camera, halved until they are at most 800 pixels wide. A depth
+/// image taken at another time than its colour image is moved to the colour image's pose; those of a depth_camera are
+/// registered with the colour camera as declared. Reading throws Interrupted after a signal. The sequence must outlive
+/// the result.
 CameraFitInput camera_fit_input(const Sequence& sequence);
 
 }  // namespace odosplat::apps

@@ -31,7 +31,7 @@ struct CameraCorrection {
     const double stretch = (1.0 + focal) * (1.0 + radial * (x * x + y * y));
     return {camera.fx * (stretch * x + center_u) + camera.cx, camera.fy * (stretch * y + center_v) + camera.cy};
   }
-  /// The point at depth 1 on the ray of a pixel: the inverse of project(), to 1e-6 px for distortions of up to 20 %.
+  /// The point at depth 1 on the ray of a pixel: the inverse of project(), by fixed-point iteration.
   Eigen::Vector3d ray(const Camera& camera, double u, double v) const {
     constexpr int steps = 40;
     const Eigen::Vector2d distorted(((u - camera.cx) / camera.fx - center_u) / (1.0 + focal),

@@ -72,9 +72,9 @@ struct CameraFit {
 /// Sigmas: as in fit_cloud, with weak priors. A value whose sigma comes near its prior's is not determined: the fit is
 /// repeated with the worst of these as declared. Not measured: too few pairs with enough patches, steps that do not
 /// become small, relative poses of the pairs off by more than can be told. Findings: wrong if a value differs by more
-/// than its tolerance and by `sure` sigmas; none if `sure` sigmas are more than three tolerances. Camera in `findings`:
-/// declared, as of the images on disk, where input.camera may be of smaller images. Deterministic. Throws InputError on
-/// bad options.
+/// than its tolerance and by `sure` sigmas; none if `sure` sigmas are more than three tolerances. declared: the camera in
+/// whose pixels they are given, where input.camera may be that of smaller images. Deterministic. Throws InputError on bad
+/// options.
 CameraFit fit_camera(const CameraFitInput& input, const Camera& declared, const CameraFitOptions& options = {});
 
 }  // namespace odosplat
