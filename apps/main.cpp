@@ -8,8 +8,6 @@
 #include "apps/command/support.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app;
   odosplat::apps::Common common;
-  odosplat::apps::declare_commands(app, common);
-  return odosplat::apps::run_program(app, argc, argv);
+  return odosplat::apps::run_program([&](CLI::App& app) { odosplat::apps::declare_commands(app, common); }, argc, argv);
 }

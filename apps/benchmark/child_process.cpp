@@ -107,6 +107,7 @@ bool connect(const char* log) {
 ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& log, const ProcessLimits& limits)
     : program_(command.at(0)), log_(log), limits_(limits), start_(std::chrono::steady_clock::now()) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const pid_t runner = getpid();

@@ -214,7 +214,7 @@ std::string device_of(const Plan& plan) {
     const std::string file = run.folder + "/report.json";
     if (!std::filesystem::exists(file)) continue;
     try {
-      const std::string device = Report(file).words("device", "none");
+      std::string device = Report(file).words("device", "none");
       if (device != "none") return device;
     } catch (const InputError&) {
       // The fault is reported in the run's own row.

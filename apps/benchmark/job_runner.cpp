@@ -209,7 +209,7 @@ std::string run_one_job(const std::string& out, const std::vector<Job>& jobs, co
   for (const std::string& need : found->needs) {
     const JobRecord before = read_record(out, need);
     if (before.id.empty() || !before.fault.empty()) {
-      const std::string fault = needs_words + need + (before.id.empty() ? ", which has not run" : ", which failed");
+      std::string fault = needs_words + need + (before.id.empty() ? ", which has not run" : ", which failed");
       write_record(out, {id, print, fault, 0.0, 0.0});
       return fault;
     }

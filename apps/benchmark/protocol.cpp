@@ -33,8 +33,9 @@ std::vector<std::string> chosen_methods(const BenchmarkOptions& options, const S
     if (std::count(methods.begin(), methods.end(), name) > 1) throw InputError("--methods", name + " is listed twice");
     if (method_recipe(name) == nullptr && own_method(suite, name) == nullptr) {
       std::string known;
-      for (const std::string& n : built_in_methods()) known += (known.empty() ? "" : ", ") + n;
-      for (const SuiteMethod& m : suite.methods) known += ", " + m.name;
+      const auto add = [&](const std::string& one) { known.append(known.empty() ? "" : ", ").append(one); };
+      for (const std::string& n : built_in_methods()) add(n);
+      for (const SuiteMethod& m : suite.methods) add(m.name);
       throw InputError("--methods", "there is no " + name + "; there are " + known);
     }
   }

@@ -31,7 +31,7 @@ class Table {
     if (!node.IsMap()) fail(node, what + " must be a map of keys and values");
     for (const auto& entry : node) {
       const auto key = entry.first.as<std::string>();
-      if (std::find(known.begin(), known.end(), key) == known.end()) fail(entry.first, what + " has no key " + key);
+      if (std::find(known.begin(), known.end(), key) == known.end()) fail(entry.first, what_ + (" has no key " + key));
     }
   }
 
@@ -82,7 +82,7 @@ class Table {
 
 /// Reads a name; names become parts of paths and of tables, so their characters are restricted.
 std::string checked_name(const Table& table) {
-  const std::string name = table.word("name");
+  std::string name = table.word("name");
   const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });

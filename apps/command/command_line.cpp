@@ -41,14 +41,14 @@ std::vector<std::string> command_names(const CLI::App& app) {
 std::string place(const CLI::App& command) {
   std::string names;
   for (const CLI::App* app = &command; app->get_parent() != nullptr; app = app->get_parent()) {
-    names = app->get_name() + (names.empty() ? "" : " ") + names;
+    names.insert(0, app->get_name() + (names.empty() ? "" : " "));
   }
   return names.empty() ? "" : names + ": ";
 }
 
 std::string how_to_list(const CLI::App& command) {
   std::string names;
-  for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) names = app->get_name() + " " + names;
+  for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) names.insert(0, app->get_name() + " ");
   return " (" + names + "--help lists them)";
 }
 

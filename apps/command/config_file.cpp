@@ -104,7 +104,7 @@ class Reader {
     take();
     if (next() == '[') fail("arrays of tables are not read");
     skip_blanks();
-    const std::string name = key();
+    std::string name = key();
     if (name.empty() || next() != ']') fail("must be [table]");
     take();
     skip_blanks();

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <new>
 #include <string>
 
@@ -28,12 +29,12 @@ int fail(int code, const std::string& what) {
   return code;
 }
 
-}  // namespace
-
-int run_program(CLI::App& app, int argc, char** argv) {
+int run(const std::function<void(CLI::App&)>& declare, int argc, char** argv) {
   catch_interrupts();
-  if (app.get_name().empty()) app.name(std::filesystem::path(argv[0]).filename().string());
   try {
+    CLI::App app;
+    declare(app);
+    if (app.get_name().empty()) app.name(std::filesystem::path(argv[0]).filename().string());
     try {
       parse_command_line(app, {argv + std::min(argc, 1), argv + argc});
     } catch (const CLI::Success& e) {  // --help, --version
@@ -55,6 +56,17 @@ int run_program(CLI::App& app, int argc, char** argv) {
     return fail(exit_internal, "there is too little memory");
   } catch (const std::exception& e) {
     return fail(exit_internal, printable_text(e.what()));  // keeps line ends, for example of a compiler's log
+  }
+}
+
+}  // namespace
+
+int run_program(const std::function<void(CLI::App&)>& declare, int argc, char** argv) noexcept {
+  try {
+    return run(declare, argc, argv);
+  } catch (...) {  // no memory for the message either
+    std::fputs("odosplat: there is too little memory\n", stderr);
+    return exit_internal;
   }
 }
 

@@ -16,7 +16,7 @@ DepthImage depth_at_image(const Sequence& sequence, std::size_t i) {
   const std::optional<SE3> T_world_depth = sequence.T_world_depth(i);
   if (!T_world_depth || !sequence.T_world_camera(i)) return {};
   const SE3 T_camera_depth = sequence.T_world_camera(i)->inverse() * *T_world_depth;
-  const DepthImage depth = sequence.depth(i);
+  DepthImage depth = sequence.depth(i);
   if (T_camera_depth.log().norm() < 1e-6) return depth;
   return registered_depth(depth, sequence.camera(), T_camera_depth, sequence.camera());
 }

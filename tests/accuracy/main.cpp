@@ -10,10 +10,11 @@
 
 using namespace odosplat;
 
-int main(int argc, char** argv) {
-  CLI::App app{"odosplat_accuracy: runs of the odometry under hard conditions, judged by true poses"};
+namespace {
+
+void declare(CLI::App& app, apps::Common& common) {
+  app.description("odosplat_accuracy: runs of the odometry under hard conditions, judged by true poses");
   app.require_subcommand(1);
-  apps::Common common;
   accuracy::add_plain(app, common);
   accuracy::add_long_path(app, common);
   accuracy::add_leave_map(app, common);
@@ -22,5 +23,11 @@ int main(int argc, char** argv) {
   accuracy::add_deceive(app, common);
   accuracy::add_disturb(app, common);
   accuracy::add_ablate(app, common);
-  return apps::run_program(app, argc, argv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  apps::Common common;
+  return apps::run_program([&](CLI::App& app) { declare(app, common); }, argc, argv);
 }

@@ -24,6 +24,14 @@ struct AblateFlags {
   std::vector<std::string> under{"plain"};
   DisturbanceOptions strength;
   int seeds = 3;
+  bool together = false;
+};
+
+/// What one comparison leaves out.
+struct Left {
+  std::string name;
+  OptionEdit off;
+  double gain = 1.0;  // of the images
 };
 
 /// The compared measures of a run; for all of them lower is better.
@@ -101,15 +109,30 @@ Script script_of(const World& world, const std::string& under,
   return script;
 }
 
+/// The chosen rules, each by itself or all in one.
+std::vector<Left> left_out(const AblateFlags& flags) {
+  std::vector<Left> each;
+  for (const Rule& rule : rules()) {
+    if (flags.rules.empty() || std::count(flags.rules.begin(), flags.rules.end(), rule.name) > 0) {
+      each.push_back({rule.name, rule.off, rule.gain});
+    }
+  }
+  if (!flags.together) return each;
+  Left all;
+  for (const Left& one : each) {
+    all.name.append(all.name.empty() ? "" : " + ").append(one.name);
+    all.gain *= one.gain;
+  }
+  all.off = [each](OdometryOptions& options) {
+    for (const Left& one : each) one.off(options);
+  };
+  return {all};
+}
+
 /// Runs one condition: for every seed with all rules, then without each of the rules.
 void ablate(const apps::Common& common, const World& world, const AblateFlags& flags, const std::string& under,
             Output& out) {
-  std::vector<const Rule*> chosen;
-  for (const Rule& rule : rules()) {
-    if (flags.rules.empty() || std::count(flags.rules.begin(), flags.rules.end(), rule.name) > 0) {
-      chosen.push_back(&rule);
-    }
-  }
+  const std::vector<Left> chosen = left_out(flags);
   std::vector<Figures> on;
   std::vector<std::vector<Figures>> off(chosen.size());
   const DamagedMaps folder;
@@ -136,11 +159,11 @@ void ablate(const apps::Common& common, const World& world, const AblateFlags& f
     };
     on.push_back(run_of("all rules", {}, 1.0));
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-      off[k].push_back(run_of(std::string("without ") + chosen[k]->name, chosen[k]->off, chosen[k]->gain));
+      off[k].push_back(run_of("without " + chosen[k].name, chosen[k].off, chosen[k].gain));
     }
   }
   out.add(row_without(world, under, "-", on, on));
-  for (std::size_t k = 0; k < chosen.size(); ++k) out.add(row_without(world, under, chosen[k]->name, off[k], on));
+  for (std::size_t k = 0; k < chosen.size(); ++k) out.add(row_without(world, under, chosen[k].name, off[k], on));
 }
 
 void run_ablate(const apps::Common& common, const AblateFlags& flags) {
@@ -177,6 +200,7 @@ void add_ablate(CLI::App& app, apps::Common& common) {
       ->check(CLI::IsMember(conditions));
   apps::add_number(command, "--seeds", flags->seeds, {.least = 1, .most = 100},
                    "runs with seeds from --seed on: of the pixel selector and of the disturbance");
+  command->add_flag("--together", flags->together, "all of --rules switched off at once, not one at a time");
   add_disturbance_flags(command, flags->strength);
   command->final_callback([&common, flags] { run_ablate(common, *flags); });
 }

@@ -35,6 +35,7 @@ std::optional<CellSummary> summarise(const BenchmarkResults& results, const std:
   if (good.empty()) return summary;
   const auto over_runs = [&](auto&& quantity) {
     std::vector<double> values;
+    values.reserve(good.size());
     for (const RunFacts* run : good) values.push_back(quantity(*run));
     return value_of(std::move(values));
   };

@@ -62,7 +62,7 @@ CloudCheckReport check_with_cloud(const Sequence& sequence, const CheckFlags& fl
   input.cloud = read_cloud(flags.cloud, flags.voxel, false);
   Progress progress("check", 100);
   input.progress = [&](double share) { progress.update(std::lround(100.0 * share)); };
-  const CloudCheckReport report = check_cloud(input);
+  CloudCheckReport report = check_cloud(input);
   progress.finish();
   return report;
 }

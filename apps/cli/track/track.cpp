@@ -35,7 +35,7 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence, const FrameRange& 
     if (std::string more; text >> more) throw InputError("--start", "has more than seven numbers: " + job.start);
     const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     try {
-      const SE3 start(rotation_from_text(q), Eigen::Vector3d(v[0], v[1], v[2]));
+      SE3 start(rotation_from_text(q), Eigen::Vector3d(v[0], v[1], v[2]));
       if (!start.is_finite()) throw InputError("the position is not finite");
       return start;
     } catch (const InputError& e) {
@@ -120,7 +120,7 @@ class Run {
 
   /// Writes the results so far; finished: they are complete.
   TrackOutcome write(bool finished) {
-    const TrackOutcome outcome = record_.outcome(odometry_, cpu_seconds() - cpu_before_);
+    TrackOutcome outcome = record_.outcome(odometry_, cpu_seconds() - cpu_before_);
     record_.write(job_, outcome, odometry_, opened_.device ? opened_.device->device().name : "none", finished);
     return outcome;
   }
@@ -272,7 +272,7 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
     throw;
   }
   if (!played && record.tracked() == 0) throw Interrupted();  // keeps the results of an earlier run
-  const TrackOutcome outcome = run.write(played);
+  TrackOutcome outcome = run.write(played);
   if (record.unreadable() > 0) {
     log_warning(std::to_string(record.unreadable()) + " of " + std::to_string(outcome.frames) +
                 " frames cannot be read and count as lost; status.csv has the reasons");

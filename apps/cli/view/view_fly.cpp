@@ -41,6 +41,7 @@ ValueRange depth_range_along(MapView& view, const Camera& camera, const Trajecto
     depths.push_back(view.render(camera, poses[pose].T_world_camera, {}).depth);
   }
   std::vector<const cv::Mat1f*> images;
+  images.reserve(samples);
   for (const DepthImage& depth : depths) images.push_back(&depth);
   return depth_range_of(images);
 }

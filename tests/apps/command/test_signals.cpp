@@ -106,13 +106,12 @@ TEST_F(Signals, AreIgnoredUnderNohup) {
 TEST_F(Signals, GiveTheirStatusToWhatWasAboutToEnd) {
   EXPECT_EXIT(
       {
-        CLI::App app;
-        app.add_subcommand("work")->callback([] { raise(SIGINT); });
+        const auto declare = [](CLI::App& app) { app.add_subcommand("work")->callback([] { raise(SIGINT); }); };
         std::string program = "program";
         std::string work = "work";
         std::vector<char*> words(1, program.data());
         words.push_back(work.data());
-        _exit(run_program(app, 2, words.data()));
+        _exit(run_program(declare, 2, words.data()));
       },
       testing::ExitedWithCode(130), "interrupted");
 }

@@ -104,7 +104,7 @@ ColorImage screen_pattern(int width, int height, std::uint32_t seed) {
 
 ColorImage document_pattern(int width, int height, std::uint32_t seed) {
   return paint(width, height, [=](float x, float y) -> Color {
-    const Color paper(0.92F, 0.91F, 0.87F);
+    Color paper(0.92F, 0.91F, 0.87F);
     if (x < 0.1F || x > 0.9F || y < 0.08F || y > 0.92F) return paper;
     const float u = (x - 0.1F) / 0.8F;
     const float v = (y - 0.08F) / 0.84F;
