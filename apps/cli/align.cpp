@@ -63,7 +63,7 @@ void print_result(const AlignFlags& flags, const Sim3IcpResult& r, std::size_t f
 void run(const AlignFlags& flags) {
   const MadeFolders made = ensure_output_folder(flags.out);
   const Similarity guess = first_guess(flags);
-  const Sequence sequence = Sequence::open(flags.poses.path, flags.poses.options);
+  const Sequence sequence = open_sequence(flags.poses);
   posed_frames(sequence, 1);
   const PointCloud points = points_of(flags, sequence);
   const PointCloud cloud = read_point_cloud(flags.cloud);

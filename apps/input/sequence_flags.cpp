@@ -5,10 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 
+#include "apps/command/interrupt.hpp"
 #include "apps/command/number_flags.hpp"
+#include "apps/command/support.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/progress.hpp"
 
 namespace odosplat::apps {
 
@@ -32,7 +37,20 @@ void add_image_limit_flag(CLI::App* command, SequenceOptions& options) {
              "refuse images of more pixels than this before they are decoded");
 }
 
-Sequence open_sequence(const SequenceFlags& flags) { return Sequence::open(flags.path, flags.options); }
+Sequence open_sequence(const std::string& path, const SequenceOptions& options) {
+  constexpr double shown_after = 2.0;  // [s]
+  const Stopwatch watch;
+  std::optional<Progress> progress;
+  SequenceOptions watched = options;
+  watched.progress = [&](double share) {
+    if (interrupted()) throw Interrupted();
+    if (!progress && watch.seconds() > shown_after) progress.emplace("read video", 100);
+    if (progress) progress->update(std::lround(100.0 * share));
+  };
+  return Sequence::open(path, watched);
+}
+
+Sequence open_sequence(const SequenceFlags& flags) { return open_sequence(flags.path, flags.options); }
 
 FrameRange parse_frames(const std::string& text) {
   const InputError wrong("--frames", "must be A:B with A < B, is " + text);

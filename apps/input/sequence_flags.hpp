@@ -31,6 +31,9 @@ void add_layout_flags(CLI::App* command, SequenceFlags& flags);
 /// --max-image-pixels alone.
 void add_image_limit_flag(CLI::App* command, SequenceOptions& options);
 
+/// Opens a sequence; reading a video through, which takes long, is shown once it has taken 2 s and ends when the program
+/// is interrupted.
+Sequence open_sequence(const std::string& path, const SequenceOptions& options);
 Sequence open_sequence(const SequenceFlags& flags);
 
 /// Frames begin to end - 1, counted from 0.

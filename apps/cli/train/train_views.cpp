@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "apps/cli/train/train_views.hpp"
 
+#include "apps/input/sequence_flags.hpp"
 #include "apps/input/unreadable_frames.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
@@ -31,7 +32,7 @@ SequenceViews::SequenceViews(const std::vector<std::string>& paths, const Sequen
                              const FrameRange& range) {
   UnreadableFrames unreadable;
   for (const std::string& path : paths) {
-    sequences_.push_back(Sequence::open(path, options));
+    sequences_.push_back(open_sequence(path, options));
     const std::vector<std::size_t> frames = posed_frames(sequences_.back(), every, range);
     const std::vector<std::string> faults = image_faults(sequences_.back(), frames);
     for (std::size_t k = 0; k < frames.size(); ++k) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "odosplat/core/error.hpp"
 #include "odosplat/io/sequence/sequence.hpp"
 #include "odosplat/io/video/video_reader.hpp"
 #include "odosplat/io/video/video_writer.hpp"
@@ -146,6 +147,23 @@ TEST(VideoTimes, CountBeforeTheRateOfTheCameraFile) {
   EXPECT_NEAR(s.time(6), 0.82, 1e-3);
   EXPECT_EQ(s.time_text(15), "4.360000");
   EXPECT_NEAR(cv::mean(s.color(19))[0] * 255.0, level(19), 5.0);
+}
+
+TEST(VideoTimes, OpeningTellsHowMuchIsReadAndCanBeEnded) {
+  FFMPEG_OR_SKIP();
+  const TempFolder temp;
+  const std::string path = make_video(temp, "m.mkv", uneven_ms, "-enc_time_base 1/1000 -c:v mjpeg");
+  SequenceOptions options;
+  options.camera_file = camera(temp, 64, 48);
+  std::vector<double> shares;
+  options.progress = [&](double share) { shares.push_back(share); };
+  Sequence::open(path, options);
+  EXPECT_EQ(shares.size(), uneven_ms.size());
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_LE(shares.back(), 1.0);
+  EXPECT_GT(shares.back(), 0.9);
+  options.progress = [](double) { throw Interrupted(); };
+  EXPECT_THROW(Sequence::open(path, options), Interrupted);
 }
 
 TEST(VideoTimes, ADamagedEndLosesFramesAndNoStamps) {

@@ -83,7 +83,7 @@ SequenceIndex index_video(const std::string& path, const SequenceOptions& option
   SequenceIndex index;
   if (options.camera_file.empty()) throw InputError(path, "a video needs a camera file (--camera)");
   choose_camera(options, {}, std::nullopt, "", 1000.0, index);
-  index.video = std::make_shared<const VideoReader>(path);
+  index.video = std::make_shared<const VideoReader>(path, options.progress);
   check_turned(path, *index.video, index);
   const std::vector<double>& times = index.video->times();
   if (times.empty() && index.camera.fps <= 0.0) {

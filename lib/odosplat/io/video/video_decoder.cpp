@@ -235,6 +235,12 @@ bool VideoDecoder::next() {
   }
 }
 
+double VideoDecoder::share_read() const {
+  AVIOContext* file = state_->format->pb;
+  const std::int64_t size = file != nullptr ? avio_size(file) : 0;
+  return size > 0 ? std::clamp(static_cast<double>(avio_tell(file)) / static_cast<double>(size), 0.0, 1.0) : 0.0;
+}
+
 VideoDecoder::Damage VideoDecoder::damage() const {
   const State& s = *state_;
   Damage damage;

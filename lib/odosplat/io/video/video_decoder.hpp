@@ -44,6 +44,8 @@ class VideoDecoder {
 
   /// Advances to the next frame; false if there is none.
   bool next();
+  /// Share of the file's bytes that have been read, 0..1.
+  double share_read() const;
   /// To be called after the last frame: before that, frames not yet read count as missing.
   Damage damage() const;
   /// Presentation stamp [s] of this frame; none if the container has none for it.

@@ -25,7 +25,7 @@ struct Pass {
   cv::Size frame_size;
 };
 
-Pass read_all(const std::string& path, VideoDecoder& decoder) {
+Pass read_all(const std::string& path, VideoDecoder& decoder, const std::function<void(double share)>& progress) {
   Pass pass;
   while (decoder.next()) {
     if (pass.times.empty()) pass.frame_size = decoder.size();
@@ -35,6 +35,7 @@ Pass read_all(const std::string& path, VideoDecoder& decoder) {
     }
     pass.times.push_back(decoder.time());
     pass.best_times.push_back(decoder.best_time());
+    if (progress) progress(decoder.share_read());
   }
   if (pass.times.empty()) throw InputError(path, "holds no frame");
   return pass;
@@ -108,12 +109,13 @@ struct VideoReader::State {
   std::size_t next = 0;  // number of the frame that the decoder returns next
 };
 
-VideoReader::VideoReader(std::string path) : state_(std::make_unique<State>()) {
+VideoReader::VideoReader(std::string path, const std::function<void(double share)>& progress)
+    : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.path = std::move(path);
   require_regular_file(s.path);
   VideoDecoder decoder(s.path);
-  const Pass pass = read_all(s.path, decoder);
+  const Pass pass = read_all(s.path, decoder, progress);
   warn_of_damage(s.path, decoder.damage(), pass.times.size());
   s.size = pass.times.size();
   s.frame_size = pass.frame_size;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
@@ -18,7 +19,9 @@ namespace odosplat {
 /// video or has no frame, if its frames differ in size or if their stamps do not increase. Thread safe.
 class VideoReader {
  public:
-  explicit VideoReader(std::string path);
+  /// progress: called after each frame of that first pass with the share of the file that has been read, 0..1; what it
+  /// throws ends the pass. May be empty.
+  explicit VideoReader(std::string path, const std::function<void(double share)>& progress = {});
   ~VideoReader();
 
   std::size_t size() const;
