@@ -28,9 +28,11 @@ struct CameraCorrection {
   Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& p_camera) const {
     const double x = p_camera.x() / p_camera.z();
     const double y = p_camera.y() / p_camera.z();
-    const double stretch = (1.0 + focal) * (1.0 + radial * (x * x + y * y));
-    return {camera.fx * (stretch * x + center_u) + camera.cx, camera.fy * (stretch * y + center_v) + camera.cy};
+    const double s = stretch(x * x + y * y);
+    return {camera.fx * (s * x + center_u) + camera.cx, camera.fy * (s * y + center_v) + camera.cy};
   }
+  /// Factor of a point's ray at depth 1, at a squared distance from the axis there.
+  double stretch(double r2) const { return (1.0 + focal) * (1.0 + radial * r2); }
   /// The point at depth 1 on the ray of a pixel: the inverse of project(), by fixed-point iteration.
   Eigen::Vector3d ray(const Camera& camera, double u, double v) const {
     constexpr int steps = 40;
