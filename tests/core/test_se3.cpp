@@ -8,6 +8,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
 #include "odosplat/core/se3.hpp"
+#include "odosplat/core/trajectory.hpp"
 
 namespace odosplat {
 namespace {
@@ -82,6 +83,16 @@ TEST(SE3, InterpolationMeetsItsEnds) {
   EXPECT_LT(distance(interpolate(T_a, T_b, 1.0), T_b), 1e-12);
   const SE3 half = interpolate(T_a, T_b, 0.5);
   EXPECT_LT(distance(half * T_a.inverse(), T_b * half.inverse()), 1e-9);
+}
+
+TEST(StampedPose, PoseBetweenTwoGoesOnBeyondThem) {
+  Random random(6);
+  const StampedPose before{2.0, SE3::exp(random_twist(random, 0.5)), ""};
+  const StampedPose after{2.5, SE3::exp(random_twist(random, 0.5)), ""};
+  EXPECT_LT(distance(pose_between(before, after, 2.0), before.T_world_camera), 1e-12);
+  EXPECT_LT(distance(pose_between(before, after, 2.5), after.T_world_camera), 1e-12);
+  const SE3 motion = after.T_world_camera * before.T_world_camera.inverse();
+  EXPECT_LT(distance(pose_between(before, after, 3.0), motion * after.T_world_camera), 1e-9);
 }
 
 }  // namespace

@@ -23,4 +23,9 @@ struct StampedPose {
 /// Poses in ascending order of time.
 using Trajectory = std::vector<StampedPose>;
 
+/// The pose at time t of the motion from one pose to a later one (interpolate); beyond them it is extrapolated.
+inline SE3 pose_between(const StampedPose& before, const StampedPose& after, double t) {
+  return interpolate(before.T_world_camera, after.T_world_camera, (t - before.time) / (after.time - before.time));
+}
+
 }  // namespace odosplat

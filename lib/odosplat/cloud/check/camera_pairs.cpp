@@ -109,29 +109,26 @@ Prediction predict(const Camera& camera, const PosesOverTime& poses, const Camer
 
 }  // namespace
 
-PosesOverTime::PosesOverTime(const CameraFitInput& input) : input_(input), place_(input.times.size(), 0) {
+PosesOverTime::PosesOverTime(const CameraFitInput& input) : place_(input.times.size(), 0) {
   for (std::size_t i = 0; i < input.times.size(); ++i) {
     if (!input.T_world_camera[i]) continue;
     place_[i] = posed_.size();
-    posed_.push_back(i);
+    posed_.push_back({input.times[i], *input.T_world_camera[i], ""});
   }
 }
 
 SE3 PosesOverTime::at(std::size_t image, double seconds) const {
-  const SE3& T_world_camera = *input_.T_world_camera[image];
-  if (seconds == 0.0 || posed_.size() < 2) return T_world_camera;
-  const double time = input_.times[image] + seconds;
+  const StampedPose& at_image = posed_[place_[image]];
+  if (seconds == 0.0 || posed_.size() < 2) return at_image.T_world_camera;
+  const double time = at_image.time + seconds;
   // The two neighbours between which the time lies; beyond the ends the last two are extrapolated.
   std::size_t before = place_[image];
   if (seconds < 0.0 && before > 0) --before;
-  const auto time_at = [&](std::size_t place) { return input_.times[posed_[place]]; };
-  while (before > 0 && time_at(before) > time) --before;
-  while (before + 2 < posed_.size() && time_at(before + 1) < time) ++before;
+  while (before > 0 && posed_[before].time > time) --before;
+  while (before + 2 < posed_.size() && posed_[before + 1].time < time) ++before;
   before = std::min(before, posed_.size() - 2);
-  const double gap = time_at(before + 1) - time_at(before);
-  if (!(gap > 0.0)) return T_world_camera;
-  return interpolate(*input_.T_world_camera[posed_[before]], *input_.T_world_camera[posed_[before + 1]],
-                     (time - time_at(before)) / gap);
+  if (!(posed_[before + 1].time > posed_[before].time)) return at_image.T_world_camera;
+  return pose_between(posed_[before], posed_[before + 1], time);
 }
 
 std::vector<CameraPair> camera_pairs(const CameraFitInput& input, const PosesOverTime& poses, const CameraState& state,

@@ -11,6 +11,7 @@
 #include "odosplat/camera/camera_correction.hpp"
 #include "odosplat/core/image.hpp"
 #include "odosplat/core/se3.hpp"
+#include "odosplat/core/trajectory.hpp"
 
 namespace odosplat {
 
@@ -61,8 +62,7 @@ class PosesOverTime {
   SE3 at(std::size_t image, double seconds) const;
 
  private:
-  const CameraFitInput& input_;
-  std::vector<std::size_t> posed_;  // images with a pose
+  Trajectory posed_;                // of the images with a pose
   std::vector<std::size_t> place_;  // of an image in posed_
 };
 

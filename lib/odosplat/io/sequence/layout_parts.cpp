@@ -95,7 +95,7 @@ std::optional<SE3> pose_at(const Trajectory& trajectory, double t) {
   if (distance <= same_stamp) return nearest->T_world_camera;
   // Poses at 10 Hz are 0.1 s apart but for rounding.
   if (last != nullptr && next != nullptr && next->time - last->time <= largest_bracket + same_stamp) {
-    return interpolate(last->T_world_camera, next->T_world_camera, (t - last->time) / (next->time - last->time));
+    return pose_between(*last, *next, t);
   }
   if (distance <= nearest_pose) return nearest->T_world_camera;
   return std::nullopt;
