@@ -12,6 +12,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/image.hpp"
+#include "odosplat/core/jackknife.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/core/progress.hpp"
@@ -78,6 +79,13 @@ TEST(Random, MomentsAreRight) {
   EXPECT_NEAR(sum / n, 0.0, 0.01);
   EXPECT_NEAR(squares / n, 1.0, 0.02);
   EXPECT_NEAR(uniform / n, 0.5, 0.005);
+}
+
+TEST(Jackknife, OfTheMeanIsItsStandardError) {
+  // Means of 1, 2, 6 without one of them each; the mean's variance is 7 / 3, that of the values over their number.
+  EXPECT_DOUBLE_EQ(jackknife_sigma({4.0, 3.5, 1.5}), std::sqrt(7.0 / 3.0));
+  EXPECT_EQ(jackknife_sigma({4.0}), 0.0);
+  EXPECT_EQ(jackknife_sigma({}), 0.0);
 }
 
 TEST(ParallelFor, CoversEveryElementOnceWhateverTheThreads) {

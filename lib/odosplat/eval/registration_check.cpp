@@ -10,6 +10,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/formatted.hpp"
+#include "odosplat/core/jackknife.hpp"
 #include "odosplat/core/parallel.hpp"
 
 namespace odosplat {
@@ -221,15 +222,6 @@ double corner_misfit(const Placement& p, const Camera& camera) {
   return most;
 }
 
-double jackknife(const std::vector<double>& without) {
-  double mean = 0.0;
-  for (const double v : without) mean += v / static_cast<double>(without.size());
-  double squares = 0.0;
-  for (const double v : without) squares += (v - mean) * (v - mean);
-  const double n = static_cast<double>(without.size());
-  return n > 1.0 ? std::sqrt((n - 1.0) / n * squares) : 0.0;
-}
-
 std::vector<Picture> pictures_of(const RegistrationInput& input, const RegistrationOptions& options, Camera& camera) {
   std::vector<Picture> pictures;
   const std::size_t count = std::min(input.images, static_cast<std::size_t>(options.images));
@@ -294,15 +286,15 @@ RegistrationReport check_registration(const RegistrationInput& input, const Regi
   }
   // The sigmas are at least as large as the resolution of the search grid allows.
   report.scale = found.scale;
-  report.scale_sigma = std::max(0.0025, jackknife(scales));
+  report.scale_sigma = std::max(0.0025, jackknife_sigma(scales));
   report.shift_px = pixels_before * Eigen::Vector2d(found.dx, found.dy);
-  report.shift_sigma_px =
-      pixels_before * Eigen::Vector2d(std::max(0.25, jackknife(shifts_x)), std::max(0.25, jackknife(shifts_y)));
+  report.shift_sigma_px = pixels_before * Eigen::Vector2d(std::max(0.25, jackknife_sigma(shifts_x)),
+                                                          std::max(0.25, jackknife_sigma(shifts_y)));
   const Scores declared = score(pictures, true, camera, {Placement{}});
   report.contrast = near.mean(best, -1);
   report.declared_contrast = declared.mean(0, -1);
   const double misfit = corner_misfit(found, camera);
-  const double misfit_sigma = std::max(0.25, jackknife(misfits));
+  const double misfit_sigma = std::max(0.25, jackknife_sigma(misfits));
   const std::string text = formatted(
       "depth's edges are found in the colour images at %.3f +- %.3f times their distance from the principal "
       "point, shifted by %.1f +- %.1f, %.1f +- %.1f px: %.1f px off in the corner",

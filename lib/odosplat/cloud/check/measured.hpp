@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "odosplat/core/jackknife.hpp"
+
 namespace odosplat {
 
 /// A value and its standard deviation.
@@ -17,13 +19,7 @@ struct Measured {
 /// sigma: the larger of the formal one and that of a jackknife, plus a floor for errors that more data do not reduce.
 /// without: the values without one group of the data each.
 inline Measured with_sigma(double value, double formal, double floor, const std::vector<double>& without) {
-  double mean = 0.0;
-  for (const double v : without) mean += v / static_cast<double>(without.size());
-  double squares = 0.0;
-  for (const double v : without) squares += (v - mean) * (v - mean);
-  const double n = static_cast<double>(without.size());
-  const double jackknife = n > 1.0 ? std::sqrt((n - 1.0) / n * squares) : 0.0;
-  return {value, std::hypot(floor, std::max(formal, jackknife))};
+  return {value, std::hypot(floor, std::max(formal, jackknife_sigma(without)))};
 }
 
 }  // namespace odosplat
