@@ -86,6 +86,14 @@ TEST(InputError, AZeroByteDoesNotEndTheLine) {
   EXPECT_STREQ(error.what(), "f.txt: `a\\x00b` is not a number");
 }
 
+TEST(InputError, QuotedLineEndsDoNotBreakTheLine) {
+  const std::string longer(200, 'k');
+  EXPECT_EQ(InputError("f.yaml", "two\nlines", "is not a known key").what(),
+            std::string("f.yaml: two\\x0alines: is not a known key"));
+  EXPECT_EQ(InputError(InputError("f.txt", "a\tb `" + longer + "`").what()).what(),
+            "f.txt: a\\x09b `" + longer + "`");  // as it was: it is cut when it is shown
+}
+
 TEST(Log, ShowsNoControlCharactersOfFiles) {
   testing::internal::CaptureStderr();
   log_warning("rgb/\x1b]0;title\a\r.png");

@@ -2,31 +2,23 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <cstddef>
 #include <stdexcept>
 #include <string>
+
+#include "odosplat/core/terminal_text.hpp"
 
 namespace odosplat {
 
 /// Bad input or bad usage, which the user can correct. The message is one line that names the file, the place in it and
-/// the fault, for example "camera.yaml: fx: must be positive, is 0". Programs print only what() and exit with 2.
+/// the fault, for example "camera.yaml: fx: must be positive, is 0"; what it quotes of a damaged file is escaped
+/// (escaped_line), so that neither a line end nor a zero byte ends it. Programs print only what() and exit with 2.
 /// Exceptions of other types are internal failures (exit 1).
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& message) : std::runtime_error(without_zeros(message)) {}
+  explicit InputError(const std::string& message) : std::runtime_error(escaped_line(message)) {}
   InputError(const std::string& file, const std::string& fault) : InputError(file + ": " + fault) {}
   InputError(const std::string& file, const std::string& place, const std::string& fault)
       : InputError(file + ": " + place + ": " + fault) {}
-
- private:
-  // what() is a C string and would end at the first zero byte, which a damaged file may contain. Zero bytes are
-  // therefore written as \x00, as terminal_text.hpp escapes them.
-  static std::string without_zeros(std::string text) {
-    for (std::size_t at = text.find('\0'); at != std::string::npos; at = text.find('\0', at)) {
-      text.replace(at, 1, "\\x00");
-    }
-    return text;
-  }
 };
 
 /// The user asked to stop (Ctrl-C); programs exit with 130.

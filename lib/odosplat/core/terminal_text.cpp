@@ -72,13 +72,6 @@ constexpr std::size_t longest_quote = 100;  // [bytes]
 constexpr std::size_t line_start = 6000;
 constexpr std::size_t line_end = 2000;
 
-/// The start of a text, at most so many bytes, cut at a character boundary.
-std::string_view cut_to_bytes(std::string_view text, std::size_t bytes) {
-  if (text.size() <= bytes) return text;
-  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) --bytes;
-  return text.substr(0, bytes);
-}
-
 /// Shortens quoted parts: messages quote text from files, which can be arbitrarily long.
 std::string with_short_quotes(std::string_view text) {
   std::string out;
@@ -135,9 +128,16 @@ std::size_t bytes_within(std::string_view text, int columns) {
 
 std::string printable_line(std::string_view text) {
   const std::string brief = without_middle(with_short_quotes(text));
-  return printable(brief, false);
+  return escaped_line(brief);
 }
 std::string printable_text(std::string_view text) { return printable(text, true); }
+std::string escaped_line(std::string_view text) { return printable(text, false); }
+
+std::string_view cut_to_bytes(std::string_view text, std::size_t bytes) {
+  if (text.size() <= bytes) return text;
+  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) --bytes;
+  return text.substr(0, bytes);
+}
 
 int text_columns(std::string_view text) {
   int columns = 0;

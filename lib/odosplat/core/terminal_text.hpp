@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,12 @@ namespace odosplat {
 /// `...`) is cut to 100 bytes; of a line longer than 8000 bytes the middle is replaced by "...".
 std::string printable_line(std::string_view text);
 std::string printable_text(std::string_view text);  // '\n' and '\t' stay
+
+/// The same as printable_line, of any length.
+std::string escaped_line(std::string_view text);
+
+/// The start of a text, at most so many bytes, cut at a character boundary.
+std::string_view cut_to_bytes(std::string_view text, std::size_t bytes);
 
 /// Columns that printable UTF-8 takes on a terminal: two for wide (East Asian) characters, none for combining marks.
 int text_columns(std::string_view text);

@@ -5,11 +5,11 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
-#include <cstddef>
 #include <optional>
 #include <sstream>
 #include <string>
+
+#include "odosplat/core/terminal_text.hpp"
 
 namespace odosplat {
 namespace detail {
@@ -51,12 +51,7 @@ inline std::optional<YAML::Node> single_yaml_document(const std::string& text) {
   return YAML::Load(text);
 }
 
-/// The start of a key, or of the parser's message, for a one-line error: at most 80 bytes, control characters (they may
-/// contain line ends) as ?.
-inline std::string yaml_excerpt(std::string text) {
-  text.resize(std::min<std::size_t>(text.size(), 80));
-  for (char& c : text) c = static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-  return text;
-}
+/// The start of a key, or of the parser's message, for an InputError: at most 80 bytes.
+inline std::string yaml_excerpt(const std::string& text) { return std::string(cut_to_bytes(text, 80)); }
 
 }  // namespace odosplat

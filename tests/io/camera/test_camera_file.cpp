@@ -200,7 +200,7 @@ TEST(CameraFile, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(error_of([] { parse_camera_file("c", minimal + "distorsion: [0, 0, 0, 0]\n"); }),
             "c: distorsion: is not a known key");
   EXPECT_EQ(error_of([] { parse_camera_file("c", minimal + "\"of two\\nlines\": 1\n"); }),
-            "c: of two?lines: is not a known key");
+            "c: of two\\x0alines: is not a known key");
   for (const char* text : {"", "- 1\n- 2\n", "just words", "42"}) {
     EXPECT_THAT(error_of([&] { parse_camera_file("c", text); }), testing::StartsWith("c: ")) << text;
   }
