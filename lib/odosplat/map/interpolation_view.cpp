@@ -207,10 +207,9 @@ void InterpolationOptions::check() const {
 }
 
 InterpolationView::InterpolationView(const PointCloud& cloud, const InterpolationOptions& options)
-    : options_((options.check(), options)), cloud_(finite_part(cloud)) {
+    : options_((options.check(), options)), cloud_(finite_part(cloud, CloudNormals::not_used)) {
   const std::vector<LocalPlane> planes = fit_local_planes(cloud_, options_.neighbors);
   spacings_ = point_spacings(cloud_);
-  cloud_.normals.clear();  // those of the planes are used
   for (const LocalPlane& plane : planes) {
     cloud_.normals.push_back(plane.normal);
     residuals_.push_back(plane.residual);

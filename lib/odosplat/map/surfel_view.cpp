@@ -151,7 +151,7 @@ void SurfelOptions::check() const {
 }
 
 SurfelView::SurfelView(const PointCloud& cloud, const SurfelOptions& options)
-    : options_((options.check(), options)), cloud_(finite_part(cloud)) {
+    : options_((options.check(), options)), cloud_(finite_part(cloud, CloudNormals::used)) {
   const std::vector<LocalPlane> planes = fit_local_planes(cloud_, options_.neighbors);
   cloud_.normals.resize(cloud_.size(), Eigen::Vector3f::Zero());
   residuals_.reserve(cloud_.size());

@@ -8,13 +8,14 @@
 
 namespace odosplat {
 
-PointCloud finite_part(const PointCloud& cloud) {
+PointCloud finite_part(const PointCloud& cloud, CloudNormals normals) {
+  const bool with_normals = cloud.has_normals() && normals == CloudNormals::used;
   PointCloud finite;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!cloud.points[i].allFinite()) continue;
     finite.points.push_back(cloud.points[i]);
     if (cloud.has_colors()) finite.colors.push_back(cloud.colors[i]);
-    if (cloud.has_normals()) finite.normals.push_back(cloud.normals[i]);
+    if (with_normals) finite.normals.push_back(cloud.normals[i]);
   }
   return finite;
 }
