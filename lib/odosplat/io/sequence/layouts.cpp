@@ -2,6 +2,8 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/io/sequence/layouts.hpp"
 
+#include "odosplat/core/error.hpp"
+
 namespace odosplat {
 
 const std::vector<Layout>& layouts() {
@@ -17,6 +19,24 @@ const std::vector<Layout>& layouts() {
       {"images", "PNG or JPEG files", is_image_folder, index_image_folder},
   };
   return all;
+}
+
+const Layout& layout_named(const std::string& name) {
+  std::string known;
+  for (const Layout& layout : layouts()) {
+    if (name == layout.name) return layout;
+    known += std::string(known.empty() ? "" : ", ") + layout.name;
+  }
+  throw InputError("--layout", "`" + name + "` is not known; known are " + known);
+}
+
+const Layout& detect_layout(const std::string& path) {
+  std::string known;
+  for (const Layout& layout : layouts()) {
+    if (layout.matches(path)) return layout;
+    known += std::string(known.empty() ? "" : ", ") + layout.name + " (" + layout.signature + ")";
+  }
+  throw InputError(path, "no known layout; known are " + known);
 }
 
 }  // namespace odosplat

@@ -20,6 +20,12 @@ struct Layout {
 /// All layouts, in the order in which detection tries them.
 const std::vector<Layout>& layouts();
 
+/// Throws InputError if there is no layout of this name.
+const Layout& layout_named(const std::string& name);
+
+/// The first layout that a path matches. Throws InputError if there is none.
+const Layout& detect_layout(const std::string& path);
+
 bool is_tum(const std::string& path);
 bool is_icl(const std::string& path);
 bool is_redwood(const std::string& path);
