@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "apps/command/number_flags.hpp"
 #include "apps/command/support.hpp"
@@ -129,9 +130,10 @@ std::vector<Left> left_out(const AblateFlags& flags) {
   return {all};
 }
 
-/// Runs one condition: for every seed with all rules, then without each of the rules.
+/// Runs one condition: for every seed with all rules, then without each of the rules. undamaged: the map as it is,
+/// opened when it is first needed.
 void ablate(const apps::Common& common, const World& world, const AblateFlags& flags, const std::string& under,
-            Output& out) {
+            std::optional<apps::OpenedView>& undamaged, Output& out) {
   const std::vector<Left> chosen = left_out(flags);
   std::vector<Figures> on;
   std::vector<std::vector<Figures>> off(chosen.size());
@@ -140,12 +142,14 @@ void ablate(const apps::Common& common, const World& world, const AblateFlags& f
     apps::TrackJob job = flags.job.track;
     job.seed += static_cast<std::uint64_t>(n);
     const auto edit = image_disturbance(under, world, flags.strength, job.seed);
-    apps::MapFlags map = job.map;
-    double share = 0.0;
+    std::optional<apps::OpenedView> damaged;
     if (const MapEdit damage = map_disturbance(under, flags.strength, job.seed); damage) {
-      map = edited_map(job.map, damage, folder.path(), share);
+      double share = 0.0;
+      damaged = apps::open_view(common, job.method, edited_map(job.map, damage, folder.path(), share));
+    } else if (!undamaged) {
+      undamaged = apps::open_view(common, job.method, job.map);
     }
-    apps::OpenedView opened = apps::open_view(common, job.method, map);
+    apps::OpenedView& opened = damaged ? *damaged : *undamaged;
     const auto run_of = [&](const std::string& rule, const OptionEdit& option, double gain) {
       const auto scaled = [edit, gain](std::size_t frame) -> ImageEdit {
         const ImageEdit before = edit ? edit(frame) : ImageEdit();
@@ -169,7 +173,8 @@ void ablate(const apps::Common& common, const World& world, const AblateFlags& f
 void run_ablate(const apps::Common& common, const AblateFlags& flags) {
   Output out(flags.job);
   const World world(flags.job);
-  for (const std::string& under : flags.under) ablate(common, world, flags, under, out);
+  std::optional<apps::OpenedView> undamaged;
+  for (const std::string& under : flags.under) ablate(common, world, flags, under, undamaged, out);
   out.write();
 }
 
