@@ -40,18 +40,25 @@ struct Pair {
 /// Pairs by kind of disturbance.
 using Pairs = std::map<std::string, std::vector<Pair>>;
 
+RenderedView seen_from(const Camera& camera, MapView& map, const SE3& T_world_camera) {
+  RenderedView view{T_world_camera, map.render(camera, T_world_camera, {true, true})};
+  view.gray = gray_of(camera, view.images, smoothing);
+  if (view.gray == nullptr) throw InputError(map.name(), "the map has no colours to compare images with");
+  return view;
+}
+
 /// A view of the map from one pose, with which images are compared.
 class Place {
  public:
   Place(const Camera& camera, MapView& map, const SE3& T_world_camera, Pairs& pairs)
       : camera_(camera),
-        view_{T_world_camera, map.render(camera, T_world_camera, {true, true})},
+        view_(seen_from(camera, map, T_world_camera)),
         patches_(camera, view_, smoothing, {}),
-        rendered_(build_frame_pyramid(camera, to_gray(view_.images.color), smoothing)),
         pairs_(pairs) {
     PixelSelector selector(SelectorOptions{});
     PixelSelector weak(weak_selector_options());
-    reference_ = build_reference(rendered_, build_gradients(rendered_), view_.images, selector, {}, {}, &weak);
+    const FramePyramid& rendered = view_.gray->pyramid;
+    reference_ = build_reference(rendered, build_gradients(rendered), view_.images, selector, {}, {}, &weak);
   }
 
   /// Compares an image at a known pose relative to the place.
@@ -78,7 +85,6 @@ class Place {
   Camera camera_;
   RenderedView view_;
   ViewPatches patches_;
-  FramePyramid rendered_;
   TrackingReference reference_;
   ImageAligner aligner_{ImageAlignerOptions{}};
   Pairs& pairs_;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <memory>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/random.hpp"
@@ -154,6 +155,20 @@ TEST_F(MapConfirmationTest, NoiseAndBlurDoNotSpeakAgainst) {
   for (float& value : noisy) value += static_cast<float>(0.05 * random.normal());
   EXPECT_LT(view.compare(pyramid(noisy), T_world_camera).against, 0.1);
   EXPECT_LT(view.compare(pyramid(blurred), T_world_camera).against, 0.1);
+}
+
+TEST_F(MapConfirmationTest, UsesTheGreyValuesThatAViewHas) {
+  const SE3 T_world_camera = test::room_path(10);
+  const FramePyramid image = pyramid(room_.gray(camera_, T_world_camera));
+  RenderedView view{T_world_camera, room_.render(camera_, T_world_camera, {true, false})};
+  const auto score = [&] { return ViewPatches(camera_, view, 0.0, options_).compare(image, T_world_camera).score; };
+  const double own = score();
+  view.gray = gray_of(camera_, view.images, 0.0);
+  EXPECT_EQ(score(), own);
+  cv::Mat1f other = view.gray->gray.clone();
+  cv::flip(other, other, 0);
+  view.gray = std::make_shared<RenderedGray>(RenderedGray{other, pyramid(other)});
+  EXPECT_LT(score(), 0.5 * own);
 }
 
 TEST_F(MapConfirmationTest, WhereNothingCanBeComparedNothingIsSaid) {

@@ -17,7 +17,7 @@ TEST(KeyframeMaker, DepthIsTrustedWhereTheMapLooksLikeTheImage) {
   const auto pyramid = std::make_shared<FramePyramid>(build_frame_pyramid(camera, room.gray(camera, T)));
   const auto make = [&](const ViewImages& view) {
     KeyframeMaker maker({});
-    return maker.make(make_even(pyramid), build_gradients(*pyramid), view, T, {}, ImageAligner({}));
+    return maker.make(make_even(pyramid), build_gradients(*pyramid), {T, view}, {}, ImageAligner({}));
   };
   const int moved = camera.width / 3;
   // A block is up to 8 px wide: points near the border between the two parts are ignored.

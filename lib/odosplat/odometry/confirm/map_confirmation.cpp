@@ -136,7 +136,8 @@ ViewPatches::ViewPatches(const Camera& camera, const RenderedView& view, double 
     : options_(options), T_world_view_(view.T_world_camera) {
   options_.check();
   if (view.images.color.empty()) return;
-  const FramePyramid pyramid = build_frame_pyramid(camera, to_gray(view.images.color), smoothing);
+  const auto seen = view.gray != nullptr ? view.gray : gray_of(camera, view.images, smoothing);
+  const FramePyramid& pyramid = seen->pyramid;
   int finest = 0;
   while (finest + 1 < pyramid.levels() && pyramid.cameras[static_cast<std::size_t>(finest)].width > options.width) {
     ++finest;

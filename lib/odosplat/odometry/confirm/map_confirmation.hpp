@@ -71,7 +71,7 @@ struct MapEvidence {
 class ViewPatches {
  public:
   /// view: rendered with colours by this camera; without colours there are no squares. smoothing: as that of the
-  /// images' pyramids [px].
+  /// images' pyramids [px], for a view whose grey values are not computed yet.
   ViewPatches(const Camera& camera, const RenderedView& view, double smoothing, const ConfirmationOptions& options);
 
   /// image: of the same camera, taken at T_world_camera.

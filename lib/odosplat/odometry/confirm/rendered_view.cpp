@@ -7,6 +7,12 @@
 
 namespace odosplat {
 
+std::shared_ptr<const RenderedGray> gray_of(const Camera& camera, const ViewImages& images, double smoothing) {
+  if (images.color.empty()) return nullptr;
+  const GrayImage gray = to_gray(images.color);
+  return std::make_shared<RenderedGray>(RenderedGray{gray, build_frame_pyramid(camera, gray, smoothing)});
+}
+
 double view_flow(const Camera& camera, const RenderedView& view, const SE3& T_world_camera) {
   constexpr int step = 16;  // [px]
   const SE3 T_camera_view = T_world_camera.inverse() * view.T_world_camera;

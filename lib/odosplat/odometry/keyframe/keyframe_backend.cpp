@@ -81,13 +81,12 @@ std::vector<TransferredPoint> KeyframeBackend::points_seen_from(const SE3& T_wor
   return seen;
 }
 
-MadeKeyframe KeyframeBackend::make_from(const RenderedView& view, const KeyframeRequest& request,
+MadeKeyframe KeyframeBackend::make_from(RenderedView& view, const KeyframeRequest& request,
                                         const KeyframeContext& context, EvenFrame& image,
                                         std::vector<GradientImage>& gradients) {
   const StageTimer timer(stages_[stage_keyframe]);
-  const auto make = [&] {
-    return maker_.make(image, gradients, view.images, view.T_world_camera, request.frame.brightness, aligner_, context);
-  };
+  if (view.gray == nullptr) view.gray = gray_of(camera_, view.images, options_.keyframe.smoothing);
+  const auto make = [&] { return maker_.make(image, gradients, view, request.frame.brightness, aligner_, context); };
   MadeKeyframe made = make();
   if (!made.evened) return made;
   image = *made.evened;
@@ -106,7 +105,7 @@ std::vector<Recollection> KeyframeBackend::recall(const FramePyramid& image, con
   return memory_.recall(image, T_world_camera, aligner_);
 }
 
-KeyframeBackend::Attempt KeyframeBackend::make_recalled(const RenderedView& view, std::vector<Recollection> recalled,
+KeyframeBackend::Attempt KeyframeBackend::make_recalled(RenderedView& view, std::vector<Recollection> recalled,
                                                         const KeyframeRequest& request, KeyframeContext context,
                                                         EvenFrame& image, std::vector<GradientImage>& gradients) {
   const SE3& T_world_keyframe = recalled.front().T_world_camera;
@@ -181,7 +180,8 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, E
   if (outside_ && corrected > 0.0 && (!made.anchored || made.map_flow > anchor.render_again_flow)) {
     // The map gave a pose but did not confirm it in the view rendered from there: the camera is not back in the map.
     const double map_share = made.map_share;
-    made = make_from({request.frame.T_world_camera, {}}, request, context, image, gradients);
+    RenderedView nothing{request.frame.T_world_camera, {}};
+    made = make_from(nothing, request, context, image, gradients);
     made.map_share = map_share;
     corrected = 0.0;
   } else if (made.anchored && made.keyframe != nullptr) {

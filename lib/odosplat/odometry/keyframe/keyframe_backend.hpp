@@ -112,14 +112,14 @@ class KeyframeBackend {
   };
   /// Patches by which poses near the view are confirmed; null where the view has no colours or confirmation is off.
   std::shared_ptr<const ViewPatches> patches_of(const RenderedView& view);
-  /// Makes a keyframe from this view. Removes the row gain from image and gradients if the view shows that there is
-  /// one.
-  MadeKeyframe make_from(const RenderedView& view, const KeyframeRequest& request, const KeyframeContext& context,
+  /// Makes a keyframe from this view, whose grey values are computed if they are not yet. Removes the row gain from image
+  /// and gradients if the view shows that there is one.
+  MadeKeyframe make_from(RenderedView& view, const KeyframeRequest& request, const KeyframeContext& context,
                          EvenFrame& image, std::vector<GradientImage>& gradients);
   std::vector<Recollection> recall(const FramePyramid& image, const SE3& T_world_camera);
   /// Makes a keyframe at the pose found by remembered keyframes, of which there is at least one. view: rendered from
   /// there.
-  Attempt make_recalled(const RenderedView& view, std::vector<Recollection> recalled, const KeyframeRequest& request,
+  Attempt make_recalled(RenderedView& view, std::vector<Recollection> recalled, const KeyframeRequest& request,
                         KeyframeContext context, EvenFrame& image, std::vector<GradientImage>& gradients);
   /// Removes the row gain from image and gradients as make_from does.
   Attempt make(const KeyframeRequest& request, EvenFrame& image, std::vector<GradientImage>& gradients);

@@ -115,12 +115,12 @@ ViewImages KeyframeMaker::without_border(const ViewImages& view, double share) c
 }
 
 MadeKeyframe KeyframeMaker::make(const EvenFrame& image, std::span<const GradientImage> gradients,
-                                 const ViewImages& whole_view, const SE3& T_world_camera, const Brightness& brightness,
+                                 const RenderedView& whole_view, const Brightness& brightness,
                                  const ImageAligner& aligner, const KeyframeContext& context) {
   const FramePyramid& pyramid = *image.even;
   MadeKeyframe made;
-  made.map_share = map_share(whole_view);
-  const ViewImages view = without_border(whole_view, made.map_share);
+  made.map_share = map_share(whole_view.images);
+  const ViewImages view = without_border(whole_view.images, made.map_share);
   // If the map covers less of the image, there are fewer points: they are as dense as in a full image.
   made.point_share = std::min(1.0, map_share(view) / options_.full_share);
   made.reference = build_reference(pyramid, gradients, view, reference_selectors_.usual, options_.reference,
@@ -132,11 +132,15 @@ MadeKeyframe KeyframeMaker::make(const EvenFrame& image, std::span<const Gradien
   // A map without colours is always trusted: once left, nothing could show when its depth is right again.
   made.in_map = enough(0) && (made.map_share >= options_.min_map_share || !made.verifiable);
   made.keyframe = std::make_shared<Keyframe>();
-  made.keyframe->T_world_camera = T_world_camera;
+  made.keyframe->T_world_camera = whole_view.T_world_camera;
   made.keyframe->brightness = brightness;
   made.keyframe->gradient = gradients.front();
   std::optional<ResidualWeights> depth_agreement;
-  if (made.in_map && made.verifiable) depth_agreement = add_anchor(made, image, view, aligner, context);
+  if (made.in_map && made.verifiable) {
+    const auto seen =
+        whole_view.gray != nullptr ? whole_view.gray : gray_of(pyramid.cameras.front(), view, options_.smoothing);
+    depth_agreement = add_anchor(made, image, view, *seen, aligner, context);
+  }
   const bool map_believed = made.in_map && (!context.distrust_map || made.anchored || !made.verifiable);
   if (!map_believed) {
     made.in_map = false;
@@ -175,9 +179,8 @@ void KeyframeMaker::add_points(MadeKeyframe& made, const Camera& camera, std::sp
   keyframe.points.clear();
 }
 
-KeyframeMaker::RenderedReference KeyframeMaker::rendered_reference(const Camera& camera, const GrayImage& gray,
+KeyframeMaker::RenderedReference KeyframeMaker::rendered_reference(const FramePyramid& pyramid,
                                                                    const ViewImages& view) {
-  const FramePyramid pyramid = build_frame_pyramid(camera, gray, options_.smoothing);
   RenderedReference out;
   out.gradients = build_gradients(pyramid);
   out.reference = build_reference(pyramid, out.gradients, view, map_reference_selectors_.usual, options_.reference,
@@ -186,13 +189,13 @@ KeyframeMaker::RenderedReference KeyframeMaker::rendered_reference(const Camera&
 }
 
 std::optional<ResidualWeights> KeyframeMaker::add_anchor(MadeKeyframe& made, const EvenFrame& image,
-                                                         const ViewImages& view, const ImageAligner& aligner,
-                                                         const KeyframeContext& context) {
+                                                         const ViewImages& view, const RenderedGray& seen,
+                                                         const ImageAligner& aligner, const KeyframeContext& context) {
   const FramePyramid& pyramid = *image.even;
   const AnchorOptions& options = options_.anchor;
   Keyframe& keyframe = *made.keyframe;
-  GrayImage gray = to_gray(view.color);
-  RenderedReference rendered = rendered_reference(pyramid.cameras.front(), gray, view);
+  GrayImage gray = seen.gray;
+  RenderedReference rendered = rendered_reference(seen.pyramid, view);
   if (rendered.reference.empty()) return {};
   Alignment alignment = find_in_view(rendered.reference, pyramid, aligner, options, context);
   EvenFrame evened = image;
@@ -201,7 +204,8 @@ std::optional<ResidualWeights> KeyframeMaker::add_anchor(MadeKeyframe& made, con
   made.anchor = alignment;
   if (!is_good(alignment, options, max_log_gain)) return {};
   const auto try_again = [&](GrayImage other) {
-    RenderedReference view_again = rendered_reference(pyramid.cameras.front(), other, view);
+    RenderedReference view_again =
+        rendered_reference(build_frame_pyramid(pyramid.cameras.front(), other, options_.smoothing), view);
     const Alignment again = aligner.align(view_again.reference, *evened.even, alignment.T_target_host, {}, 1, 0);
     if (!is_good(again, options, max_log_gain) || !(worth(again) > worth(alignment))) return false;
     rendered = std::move(view_again);

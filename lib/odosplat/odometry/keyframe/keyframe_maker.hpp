@@ -8,6 +8,7 @@
 
 #include "odosplat/map/map_view.hpp"
 #include "odosplat/odometry/align/image_aligner.hpp"
+#include "odosplat/odometry/confirm/rendered_view.hpp"
 #include "odosplat/odometry/frame/even_rows.hpp"
 #include "odosplat/odometry/keyframe/keyframe.hpp"
 #include "odosplat/odometry/light/image_blur.hpp"
@@ -115,25 +116,25 @@ class KeyframeMaker {
  public:
   explicit KeyframeMaker(const KeyframeMakerOptions& options);
 
-  /// gradients: the even image's, of every level. view must have been rendered with the image's camera from
-  /// T_world_camera. The keyframe's pose and brightness are as given; id, frame and time are left to the caller.
-  /// aligner aligns image and rendered view.
-  MadeKeyframe make(const EvenFrame& image, std::span<const GradientImage> gradients, const ViewImages& view,
-                    const SE3& T_world_camera, const Brightness& brightness, const ImageAligner& aligner,
-                    const KeyframeContext& context = {});
+  /// gradients: the even image's, of every level. view must have been rendered with the image's camera. The keyframe's
+  /// pose is the view's, its brightness as given; id, frame and time are left to the caller. aligner aligns image and
+  /// rendered view.
+  MadeKeyframe make(const EvenFrame& image, std::span<const GradientImage> gradients, const RenderedView& view,
+                    const Brightness& brightness, const ImageAligner& aligner, const KeyframeContext& context = {});
 
   const KeyframeMakerOptions& options() const { return options_; }
 
  private:
-  /// Returns how far the map's depth is to be trusted; none if there is no anchor.
+  /// seen: the view's. Returns how far the map's depth is to be trusted; none if there is no anchor.
   std::optional<ResidualWeights> add_anchor(MadeKeyframe& made, const EvenFrame& image, const ViewImages& view,
-                                            const ImageAligner& aligner, const KeyframeContext& context);
+                                            const RenderedGray& seen, const ImageAligner& aligner,
+                                            const KeyframeContext& context);
   /// What the aligner and the window need of a rendered view. Its grey values may have been changed to match the image.
   struct RenderedReference {
     std::vector<GradientImage> gradients;
     TrackingReference reference;
   };
-  RenderedReference rendered_reference(const Camera& camera, const GrayImage& gray, const ViewImages& view);
+  RenderedReference rendered_reference(const FramePyramid& pyramid, const ViewImages& view);
   ViewImages without_border(const ViewImages& view, double share) const;
   void add_points(MadeKeyframe& made, const Camera& camera, std::span<const GradientImage> gradients,
                   const ViewImages& view, bool first);

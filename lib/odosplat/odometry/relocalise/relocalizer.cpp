@@ -231,8 +231,9 @@ Relocalizer::Finalist Relocalizer::verify(const Candidate& candidate, const Fram
   Finalist finalist;
   finalist.candidate = candidate;
   const SE3 T_world_camera = candidate.T_world_camera();
-  const ViewImages view = map_.render(index_->camera(), T_world_camera, {true, false});
-  const ViewPatches patches(index_->camera(), {T_world_camera, view}, options_.smoothing, options_.confirmation);
+  RenderedView view{T_world_camera, map_.render(index_->camera(), T_world_camera, {true, false})};
+  view.gray = gray_of(index_->camera(), view.images, options_.smoothing);
+  const ViewPatches patches(index_->camera(), view, options_.smoothing, options_.confirmation);
   finalist.evidence = patches.compare(image, T_world_camera);
   finalist.fault = fault_of(finalist.evidence, options_.min_coverage, options_.min_score);
   if (!finalist.fault.empty()) return finalist;
@@ -240,8 +241,7 @@ Relocalizer::Finalist Relocalizer::verify(const Candidate& candidate, const Fram
     finalist.fault = "too few points agree";
     return finalist;
   }
-  const FramePyramid rendered = build_frame_pyramid(index_->camera(), to_gray(view.color), options_.smoothing);
-  const TrackingReference reference = reference_of(rendered, view);
+  const TrackingReference reference = reference_of(view.gray->pyramid, view.images);
   const Alignment alignment = aligner_.align(reference, image, SE3(), candidate.alignment.brightness, 1, 0);
   const Matrix6d covariance =
       options_.covariance_factor * (alignment.information + 1e-9 * Matrix6d::Identity()).inverse();
