@@ -80,6 +80,15 @@ std::vector<VisiblePatch> patches_of(const GrayImage& image, const DepthImage& d
   return patches;
 }
 
+// The patch with its depth multiplied by a factor, given by its logarithm.
+VisiblePatch with_depth_factor(VisiblePatch patch, double log_factor) {
+  const auto factor = static_cast<float>(std::exp(-log_factor));
+  patch.inverse_depth *= factor;
+  patch.slope_u *= factor;
+  patch.slope_v *= factor;
+  return patch;
+}
+
 // Where the surface behind a patch's middle is seen in the other image.
 struct Prediction {
   Eigen::Vector2d pixel = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -188,17 +197,11 @@ std::vector<CameraEquation> camera_equations(const CameraFitInput& input, const 
   std::vector<std::array<std::optional<CameraEquation>, 2>> found(patches.size());
   parallel_for(static_cast<int>(patches.size()), 32, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      VisiblePatch patch = patches[static_cast<std::size_t>(i)];
+      const VisiblePatch& patch = patches[static_cast<std::size_t>(i)];
       const Prediction expected = predict(input.camera, poses, state, pair, pair.T_to_given, patch);
       if (!expected.pixel.allFinite()) continue;
-      const auto match = [&] {
-        VisiblePatch scaled = patch;
-        const auto factor = static_cast<float>(std::exp(-state.depth_factor));
-        scaled.inverse_depth *= factor;
-        scaled.slope_u *= factor;
-        scaled.slope_v *= factor;
-        return match_patch(scaled, from, to, matching, expected.T_to_from, search_radius, expected.pixel);
-      }();
+      const auto match = match_patch(with_depth_factor(patch, state.depth_factor), from, to, matching,
+                                     expected.T_to_from, search_radius, expected.pixel);
       if (!match) continue;
       Eigen::Matrix<double, 2, CameraState::size + 6> J;
       for (int k = 0; k < J.cols(); ++k) {
