@@ -46,7 +46,7 @@ void OdometryOptions::check() const {
 }
 
 bool OdometryOptions::allows(const MisfitEffect& effect, double sigmas) const {
-  return effect.sigmas < sigmas || (effect.meters <= max_misfit_translation && effect.radians <= max_misfit_rotation);
+  return misfit_limits().allow(effect, sigmas);
 }
 
 std::string to_string(TrackStatus status) {
@@ -66,9 +66,10 @@ Odometry::Odometry(const Camera& camera, MapView& map, const OdometryOptions& op
       options_(options),
       T_world_camera_start_(T_world_camera_start),
       front_({options.aligner, options.policy, options.accept}),
-      backend_(camera, map, front_.aligner(),
-               {options.keyframe, options.confirmation, options.misfit, options.memory, options.window,
-                options.optimizer, options.marginalization, options.activation, options.drift}) {
+      backend_(
+          camera, map, front_.aligner(),
+          {options.keyframe, options.confirmation, options.misfit, options.memory, options.window, options.optimizer,
+           options.marginalization, options.activation, options.drift, options.misfit_limits()}) {
   camera_.check();
   check_least_size(camera_);
   options_.check();
@@ -172,9 +173,11 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
   if (came_back) finish();
   if (tracked.keyframe_due() || came_back) {
     request.to_be_confirmed = came_back;
-    if (!make_keyframe(request, result, came_back) && !came_back) return;
+    const bool made = make_keyframe(request, result, came_back);
+    if (!made && !came_back) return;
     if (keyframe_evidence_.verdict == Confirmation::confirmed) result.evidence = keyframe_evidence_;
-    const bool refused = came_back ? !stands(keyframe_evidence_, keyframe_misfit_, true)
+    // A keyframe that is to be confirmed is made only if it stands.
+    const bool refused = came_back ? !made && !stands(keyframe_evidence_, keyframe_misfit_, true)
                                    : to_be_confirmed_ && result.evidence.verdict != Confirmation::confirmed;
     if (refused) refuse(image, request, result, keyframe_evidence_);
   } else if (keyframes_->renders_ahead() && request.view == nullptr) {
@@ -184,9 +187,8 @@ void Odometry::follow(const GrayImage& image, KeyframeRequest& request, TrackRes
 
 bool Odometry::stands(const MapEvidence& evidence, const MisfitEffect& misfit, bool to_be_confirmed) const {
   if (front_.empty() || front_.newest().patches == nullptr) return true;
-  // A search for a pose makes up for a wrong camera by a wrong pose: then less suffices to refuse it.
-  constexpr double likely_sigmas = 2.0;
-  if (!options_.allows(misfit, to_be_confirmed ? likely_sigmas : MisfitEffect::significant_sigmas)) return false;
+  if (!options_.allows(misfit, to_be_confirmed ? MisfitEffect::likely_sigmas : MisfitEffect::significant_sigmas))
+    return false;
   if (evidence.verdict == Confirmation::confirmed) return true;
   return !to_be_confirmed && evidence.verdict != Confirmation::contradicted;
 }

@@ -57,6 +57,7 @@ struct OdometryOptions {
   /// False if the misfit refuses the pose: an error of the camera that is probable by so many standard deviations moves
   /// it by more than the limits above.
   bool allows(const MisfitEffect& effect, double sigmas = MisfitEffect::significant_sigmas) const;
+  MisfitLimits misfit_limits() const { return {max_misfit_translation, max_misfit_rotation}; }
   void check() const;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "odosplat/camera/camera_correction.hpp"
 #include "odosplat/core/se3.hpp"
@@ -40,9 +41,22 @@ struct MisfitEffect {
                                            // uncertainty; 0 if the error is not significant
 
   static constexpr double significant_sigmas = 5.0;
+  /// Where a pose was searched for, less suffices to refuse it: a search makes up for a wrong camera by a wrong pose.
+  static constexpr double likely_sigmas = 2.0;
   /// The calibration counts as right until an error is significant (Odometry is stricter with poses that must be
   /// confirmed). Images of a flat wall, for example, determine none.
   bool significant() const { return sigmas >= significant_sigmas; }
+};
+
+/// How far errors of the calibration may move a pose that is accepted.
+struct MisfitLimits {
+  double translation = std::numeric_limits<double>::infinity();  // [m]
+  double rotation = std::numeric_limits<double>::infinity();     // [rad]
+
+  /// False if an error that is probable by so many standard deviations moves the pose by more.
+  bool allow(const MisfitEffect& effect, double sigmas) const {
+    return effect.sigmas < sigmas || (effect.meters <= translation && effect.radians <= rotation);
+  }
 };
 
 }  // namespace odosplat

@@ -239,6 +239,14 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   if (request.to_be_confirmed && patches != nullptr) {
     outcome.evidence = patches->compare(*image.even, made.keyframe->T_world_camera);
     if (outcome.evidence.verdict != Confirmation::confirmed) return outcome;
+    // By a copy: misfit_ counts the image once, at the pose that the window gives it.
+    CameraMisfit tried = misfit_;
+    const MisfitEffect effect =
+        tried.effect(tried.add(*patches, *image.even, made.keyframe->T_world_camera, request.frame.velocity), camera_);
+    if (!options_.max_misfit.allow(effect, MisfitEffect::likely_sigmas)) {
+      outcome.misfit = effect;
+      return outcome;
+    }
   }
   outcome.made = true;
   outcome.anchored = made.anchored;

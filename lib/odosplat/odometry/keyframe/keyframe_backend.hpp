@@ -45,6 +45,7 @@ struct KeyframeBackendOptions {
   MarginalizationOptions marginalization;
   ActivationOptions activation;
   DriftOptions drift;
+  MisfitLimits max_misfit;  // of keyframes that are to be confirmed
 
   void check() const;
 };
@@ -54,13 +55,14 @@ struct KeyframeRequest {
   PosedFrame frame;
   std::shared_ptr<MapView> view;  // rendered in place of the map, for example a depth sensor; null: the map
   int id = 0;                     // the keyframe's number, if it is made
-  bool to_be_confirmed = false;   // made only if the map's colours, where it has any, confirm the pose
+  bool to_be_confirmed = false;   // made only if the map's colours, where it has any, confirm the pose, and if no
+                                  // likely error of the camera (MisfitEffect) has moved it too far
   bool fresh = false;             // the existing keyframes are not to be trusted: the window starts anew with this one
 };
 
 /// The result of a KeyframeRequest.
 struct KeyframeOutcome {
-  bool made = false;                   // false: too little depth there; the window is as it was
+  bool made = false;                   // false: too little depth there, or not confirmed; the window is as it was
   bool anchored = false;               // aligned with the map's colours, or with remembered keyframes that were
   bool prefetched = false;             // made from the view that was rendered ahead
   bool in_map = false;                 // the map alone gives enough depth; false: depth is found by motion
