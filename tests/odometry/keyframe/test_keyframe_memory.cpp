@@ -18,7 +18,7 @@ class KeyframeMemoryTest : public testing::Test {
     const auto pyramid = std::make_shared<FramePyramid>(image(room_, T_world_camera));
     KeyframeMaker maker({});
     MadeKeyframe made = maker.make(make_even(pyramid), build_gradients(*pyramid),
-                                   room_.render(camera_, T_world_camera, {true, true}), T_world_camera, {}, aligner_);
+                                   {T_world_camera, room_.render(camera_, T_world_camera, {true, true})}, {}, aligner_);
     made.keyframe->reference = std::make_shared<TrackingReference>(std::move(made.reference));
     made.keyframe->covariance = 1e-6 * Matrix6d::Identity();
     return made.keyframe;

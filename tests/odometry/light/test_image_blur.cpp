@@ -77,7 +77,7 @@ TEST_F(ImageBlurTest, TheMapIsBlurredAsTheImageIs) {
     options.anchor.blur.enabled = enabled;
     KeyframeMaker maker(options);
     const MadeKeyframe made =
-        maker.make(make_even(pyramid), build_gradients(*pyramid), view, T_world_host_, {}, aligner_);
+        maker.make(make_even(pyramid), build_gradients(*pyramid), {T_world_host_, view}, {}, aligner_);
     EXPECT_TRUE(made.anchored);
     return made.anchor.rmse;
   };

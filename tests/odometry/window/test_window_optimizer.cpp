@@ -37,7 +37,7 @@ class WindowOptimizerTest : public testing::Test {
       const SE3 T = test::room_path(6 * i);
       const auto pyramid = std::make_shared<FramePyramid>(build_frame_pyramid(camera_, room_.gray(camera_, T)));
       const auto made = maker.make(make_even(pyramid), build_gradients(*pyramid),
-                                   room_.render(camera_, T, {true, true}), T, {}, aligner);
+                                   {T, room_.render(camera_, T, {true, true})}, {}, aligner);
       EXPECT_NE(made.keyframe, nullptr);
       EXPECT_EQ(made.anchored, anchored);
       window.keyframes.push_back(made.keyframe);
