@@ -85,6 +85,14 @@ TEST(SE3, InterpolationMeetsItsEnds) {
   EXPECT_LT(distance(half * T_a.inverse(), T_b * half.inverse()), 1e-9);
 }
 
+TEST(SE3, ReflectionInvertsTheYAxisOfBothFrames) {
+  Random random(7);
+  const SE3 T = SE3::exp(random_twist(random, 1.0));
+  Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
+  F(1, 1) = -1.0;
+  EXPECT_LT((reflected(T).matrix() - F * T.matrix() * F).norm(), 1e-12);
+}
+
 TEST(StampedPose, PoseBetweenTwoGoesOnBeyondThem) {
   Random random(6);
   const StampedPose before{2.0, SE3::exp(random_twist(random, 0.5)), ""};

@@ -78,7 +78,7 @@ const World& room() {
   return world;
 }
 
-SE3 reflected(const SE3& T) {
+SE3 reflected_by_matrices(const SE3& T) {
   const Eigen::Matrix4d F = Eigen::Vector4d(1, -1, 1, 1).asDiagonal();
   return SE3::from_matrix(F * T.matrix() * F);
 }
@@ -105,7 +105,7 @@ TEST(CheckConventions, FindsAFlippedFy) {
 
 TEST(CheckConventions, FindsReflectedPosesAsTheOtherSignOfFy) {
   ConventionInput input = room().input;
-  for (auto& pose : input.T_world_camera) *pose = reflected(*pose);
+  for (auto& pose : input.T_world_camera) *pose = reflected_by_matrices(*pose);
   const ConventionReport r = check_conventions(input);
   EXPECT_THAT(r.verdict, HasSubstr("fy: the data want -128.0, the file says +128.0"));
   EXPECT_THAT(r.verdict, HasSubstr("reflect the poses"));

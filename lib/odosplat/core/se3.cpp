@@ -92,4 +92,10 @@ Matrix6d SE3::adjoint() const {
 
 SE3 interpolate(const SE3& T_a, const SE3& T_b, double s) { return SE3::exp(s * (T_b * T_a.inverse()).log()) * T_a; }
 
+SE3 reflected(const SE3& T) {
+  const Eigen::Quaterniond& q = T.rotation();
+  const Eigen::Vector3d& t = T.translation();
+  return {Eigen::Quaterniond(q.w(), -q.x(), q.y(), -q.z()), Eigen::Vector3d(t.x(), -t.y(), t.z())};
+}
+
 }  // namespace odosplat

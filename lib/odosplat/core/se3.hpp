@@ -62,4 +62,7 @@ class SE3 {
 /// The motion a fraction s of the way from T_a to T_b: exp(s * log(T_b * T_a^-1)) * T_a. s outside 0..1 extrapolates.
 SE3 interpolate(const SE3& T_a, const SE3& T_b, double s);
 
+/// F T F with F = diag(1, -1, 1): the same motion where the y axis is inverted in both of its frames.
+SE3 reflected(const SE3& T);
+
 }  // namespace odosplat

@@ -34,13 +34,6 @@ struct PairError {
   double overlap = 0.0;
 };
 
-// F T F with F = diag(1, -1, 1): the motion of the mirrored world.
-SE3 reflect(const SE3& T) {
-  const Eigen::Quaterniond& q = T.rotation();
-  const Eigen::Vector3d& t = T.translation();
-  return {Eigen::Quaterniond(q.w(), -q.x(), q.y(), -q.z()), Eigen::Vector3d(t.x(), -t.y(), t.z())};
-}
-
 std::vector<Convention> all_conventions(const Convention& declared, const ConventionOptions& options) {
   std::vector<double> scales{declared.depth_scale};
   for (const double scale : options.depth_scales) {
@@ -113,7 +106,7 @@ PairError reproject(const ConventionInput& input, const Pair& pair, const std::v
   error.tried = from && to;
   if (!error.tried || samples.empty()) return error;
   SE3 T_to_from = convention.inverted ? *to * from->inverse() : to->inverse() * *from;
-  if (convention.fy_sign < 0) T_to_from = reflect(T_to_from);
+  if (convention.fy_sign < 0) T_to_from = reflected(T_to_from);
   const double metres = input.depth_scale / convention.depth_scale;
   std::vector<double> absolute;
   std::vector<double> relative;

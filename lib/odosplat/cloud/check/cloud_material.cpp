@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::size_t most_images = 64;  // kept in memory
 
-// F T F with F = diag(1, -1, 1): the motion of the mirrored world.
-SE3 reflect(const SE3& T) {
-  const Eigen::Quaterniond& q = T.rotation();
-  const Eigen::Vector3d& t = T.translation();
-  return {Eigen::Quaterniond(q.w(), -q.x(), q.y(), -q.z()), Eigen::Vector3d(t.x(), -t.y(), t.z())};
-}
-
 PointCloud mirrored(PointCloud cloud) {
   for (Eigen::Vector3f& p : cloud.points) p.y() = -p.y();
   for (Eigen::Vector3f& n : cloud.normals) n.y() = -n.y();
@@ -92,7 +85,7 @@ std::optional<SE3> CloudMaterial::pose(std::size_t image, const CloudReading& re
   if (k < 0 || k >= static_cast<std::ptrdiff_t>(input_.T_world_camera.size())) return std::nullopt;
   const std::optional<SE3>& stored = input_.T_world_camera[static_cast<std::size_t>(k)];
   if (!stored) return std::nullopt;
-  const SE3 T = reading.fy_sign < 0 ? reflect(*stored) : *stored;
+  const SE3 T = reading.fy_sign < 0 ? reflected(*stored) : *stored;
   return reading.inverted ? T.inverse() : T;
 }
 

@@ -11,15 +11,6 @@
 #include "odosplat/io/sequence/layout_parts.hpp"
 
 namespace odosplat {
-namespace {
-
-SE3 reflected(const SE3& T) {
-  const Eigen::Quaterniond& q = T.rotation();
-  const Eigen::Vector3d& t = T.translation();
-  return {Eigen::Quaterniond(q.w(), -q.x(), q.y(), -q.z()), Eigen::Vector3d(t.x(), -t.y(), t.z())};
-}
-
-}  // namespace
 
 void reflect_poses(SequenceIndex& index) {
   for (FrameFiles& f : index.frames) {

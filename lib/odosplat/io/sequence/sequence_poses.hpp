@@ -10,8 +10,7 @@
 // The poses of a sequence once its layout has been read.
 namespace odosplat {
 
-/// All poses T of the index become F T F with F = diag(1, -1, 1): the same motions with the y axis of camera and world
-/// inverted.
+/// All poses of the index are reflected: the y axis of camera and world is inverted.
 void reflect_poses(SequenceIndex& index);
 
 /// Sets the poses of all images and depth images by the camera's time offsets. Returns the true poses by the images'
