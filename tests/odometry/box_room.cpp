@@ -65,9 +65,20 @@ GrayImage BoxRoom::gray(const Camera& camera, const SE3& T_world_camera) const {
   return image;
 }
 
+GrayImage BoxRoom::gray(const Camera& camera, const std::function<SE3(double seconds)>& T_world_camera) const {
+  GrayImage image(camera.height, camera.width);
+  for (int v = 0; v < camera.height; ++v) {
+    Camera row = camera;
+    row.height = 1;
+    row.cy -= v;
+    gray(row, T_world_camera(camera.readout * camera.time_of_row(v))).copyTo(image.row(v));
+  }
+  return image;
+}
+
 Camera small_camera() { return {160, 120, 121.0, 120.0, 79.3, 59.8}; }
 
-SE3 room_path(int k) {
+SE3 room_path(double k) {
   const double t = k / 30.0;
   const Eigen::Vector3d position(0.4 * std::sin(0.9 * t), 0.15 * std::sin(1.7 * t), 0.5 * std::sin(0.6 * t));
   const Eigen::Vector3d turn(0.12 * std::sin(1.1 * t), 0.35 * std::sin(0.7 * t), 0.08 * std::sin(1.3 * t));

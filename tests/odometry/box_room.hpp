@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "odosplat/map/map_view.hpp"
@@ -30,12 +31,15 @@ class BoxRoom : public MapView {
   /// Depth along the optical axis of the ray through the pixel [m].
   double depth(const Camera& camera, const SE3& T_world_camera, double u, double v) const;
   GrayImage gray(const Camera& camera, const SE3& T_world_camera) const;
+  /// The image of a rolling shutter (camera.readout): each row as seen from the pose that the camera has then.
+  /// T_world_camera: by the time since the middle row's [s].
+  GrayImage gray(const Camera& camera, const std::function<SE3(double seconds)>& T_world_camera) const;
 };
 
 /// 160 x 120 with a horizontal field of view of 67 degrees.
 Camera small_camera();
 
-/// A smooth hand-held path through the room; pose number k of a 30 Hz camera.
-SE3 room_path(int k);
+/// A smooth hand-held path through the room; pose number k of a 30 Hz camera, also between two of its images.
+SE3 room_path(double k);
 
 }  // namespace odosplat::test

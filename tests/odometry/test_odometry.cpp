@@ -90,6 +90,32 @@ TEST_F(OdometryTest, FollowsThePathWithoutColours) {
   EXPECT_LT(ate(play(coloured, 90, without_anchor())), 0.004);
 }
 
+TEST_F(OdometryTest, FollowsThePathOfARollingShutter) {
+  const auto path = [](double k) { return test::room_path(3.0 * k); };
+  const auto error = [&](double taken_s, double told_s) {
+    Camera taken = camera_;
+    taken.readout = taken_s;
+    Camera told = camera_;
+    told.readout = told_s;
+    test::BoxRoom map;
+    Odometry odometry(told, map, {}, path(0));
+    for (int k = 0; k < 90; ++k) {
+      odometry.track(world_.gray(taken, [&](double s) { return path(k + 30.0 * s); }), k / 30.0);
+    }
+    EXPECT_EQ(odometry.statistics().lost, 0) << taken_s << " " << told_s;
+    double squares = 0.0;
+    for (const StampedPose& pose : odometry.trajectory()) {
+      squares += (path(pose.time * 30.0).inverse() * pose.T_world_camera).translation().squaredNorm();
+    }
+    return std::sqrt(squares / 90.0);
+  };
+  const double still = error(0.0, 0.0);
+  for (const double readout : {0.02, -0.02}) {
+    EXPECT_LT(error(readout, readout), 1.5 * still) << readout;
+    EXPECT_GT(error(readout, 0.0), 5.0 * still) << readout;
+  }
+}
+
 TEST_F(OdometryTest, EveryUseOfTheMapsDepthFollowsThePath) {
   for (const DepthUse use :
        {DepthUse::fixed, DepthUse::prior, DepthUse::pose_aware_prior, DepthUse::free, DepthUse::interval}) {

@@ -76,12 +76,19 @@ void require_input(const CalibrateFlags& flags, const Sequence& sequence) {
 }
 
 /// What of the fit is significant; the rest stays as declared, to the bit.
-CameraState significant(const CameraFit& fit) {
+CameraState significant(const CameraFit& fit, const Camera& declared) {
   constexpr double least_sigmas = 2.0;
   CameraState::Vector state = fit.state.vector();
   for (int k = 0; k < CameraState::size; ++k) {
     if (std::abs(state[k]) <= least_sigmas * fit.sigma[k]) state[k] = 0.0;
   }
+  // A camera that is said to take all rows at once becomes one with a rolling shutter only if that is sure: tracking
+  // with the motion of its rows costs time.
+  constexpr double sure_sigmas = 4.0;
+  constexpr double least_readout = 0.005;  // [s]
+  double& readout = state[CameraState::at_readout];
+  const double enough = std::max(least_readout, sure_sigmas * fit.sigma[CameraState::at_readout]);
+  if (declared.readout == 0.0 && std::abs(readout) < enough) readout = 0.0;
   return CameraState::from(state);
 }
 
@@ -94,6 +101,7 @@ CameraFile calibrated(const Sequence& sequence, const CameraState& state) {
   } catch (const InputError& e) {
     throw NoResult(sequence.name() + ": " + e.what() + "; --what focal,time leaves principal point and distortion");
   }
+  file.camera.readout += state.camera.readout;
   if (state.depth_factor != 0.0) file.depth_scale /= std::exp(state.depth_factor);
   if (state.time_offset == 0.0) return file;
   const double offset = file.time_offset + state.time_offset;
@@ -110,19 +118,11 @@ CameraFile calibrated(const Sequence& sequence, const CameraState& state) {
 }
 
 void warn(const Sequence& sequence, const CameraFit& fit) {
-  constexpr double sure = 4.0;
-  constexpr double least_readout = 0.005;  // [s]
   if (fit.error_poses_px > 1.1 * fit.error_before_px) {
     log_warning(sequence.name() +
                 formatted(": the poses fit the camera as declared (to %.2f px) better than the one found (%.2f px): "
                           "they were estimated with it, and would have to be estimated anew",
                           fit.error_before_px, fit.error_poses_px));
-  }
-  const double readout = fit.state.camera.readout;
-  if (std::abs(readout) > std::max(least_readout, sure * fit.sigma[CameraState::at_readout])) {
-    log_warning(sequence.name() + formatted(": the rows were taken one after the other, within %.0f ms (rolling "
-                                            "shutter): no camera.yaml holds that",
-                                            1000.0 * std::abs(readout)));
   }
 }
 
@@ -151,7 +151,7 @@ void run(const Common& common, const CalibrateFlags& flags) {
                                                "`odosplat check` may name the cause",
                                                fit.error_after_px));
   }
-  const CameraFile file = calibrated(sequence, significant(fit));
+  const CameraFile file = calibrated(sequence, significant(fit, sequence.camera()));
   check_camera(flags.out, file);
   write_camera_file(flags.out, file);
   if (!flags.json.empty()) write_file_atomically(flags.json, calibration_json(sequence, file, fit));
@@ -175,9 +175,8 @@ void add_calibrate(CLI::App& app, Common& common) {
   command->add_option("--out", flags->out, "camera.yaml to write")->required();
   command
       ->add_option("--what", flags->what,
-                   "some of focal,center,distortion,time,line_time,depth; the rest stays as declared. line_time (of a "
-                   "rolling shutter) is reported, but no camera.yaml holds it; depth: the scale of depth images "
-                   "(default: all)")
+                   "some of focal,center,distortion,time,line_time,depth; the rest stays as declared. line_time: the "
+                   "readout of a rolling shutter; depth: the scale of depth images (default: all)")
       ->delimiter(',')
       ->expected(1)
       ->check(CLI::IsMember(all_parts));

@@ -71,7 +71,7 @@ CameraFit measure_camera(const Sequence& sequence) {
 std::string camera_table(const CameraFit& fit, const Camera& camera) {
   if (!fit.measured) return "";
   using State = CameraState;
-  const Measured readout{1000.0 * fit.state.camera.readout, 1000.0 * fit.sigma[State::at_readout]};
+  const Measured readout{1000.0 * fit.readout_s(camera).value, 1000.0 * fit.readout_s(camera).sigma};
   const Measured offset{1000.0 * fit.state.time_offset, 1000.0 * fit.sigma[State::at_time_offset]};
   return formatted("camera by %d measured distances of patches in %d pairs of images: ", fit.distances, fit.pairs) +
          value_text(fit, State::at_focal, "fx", fit.focal_px(camera), 2, " px") + ", " +
@@ -106,13 +106,14 @@ nlohmann::ordered_json camera_fit_json(const CameraFit& fit, const Camera& camer
   const Measured u = fit.center_u_px(camera);
   const Measured v = fit.center_v_px(camera);
   const Measured factor = fit.depth_factor();
+  const Measured readout = fit.readout_s(camera);
   return {{"pairs", fit.pairs},
           {"distances", fit.distances},
           {"fx_px", value_json(fit, State::at_focal, focal.value, focal.sigma)},
           {"cx_px", value_json(fit, State::at_center_u, u.value, u.sigma)},
           {"cy_px", value_json(fit, State::at_center_v, v.value, v.sigma)},
           {"radial", value_json(fit, State::at_radial, fit.state.camera.radial, fit.sigma[State::at_radial])},
-          {"readout_s", value_json(fit, State::at_readout, fit.state.camera.readout, fit.sigma[State::at_readout])},
+          {"readout_s", value_json(fit, State::at_readout, readout.value, readout.sigma)},
           {"time_offset_s",
            value_json(fit, State::at_time_offset, fit.state.time_offset, fit.sigma[State::at_time_offset])},
           {"depth_factor", value_json(fit, State::at_depth_factor, factor.value, factor.sigma)},

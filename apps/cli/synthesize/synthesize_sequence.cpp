@@ -59,6 +59,9 @@ void write_lists(const SyntheticSequence& sequence) {
   }
   CameraFile file;
   file.camera = sequence.camera.camera;
+  // From the middle of the first row to that of the last, where a camera's readout is of all rows.
+  const double rows = std::max(2, file.camera.height);
+  file.camera.readout = sequence.camera.shutter.readout_s * rows / (rows - 1.0);
   file.depth_scale = synthetic_depth_units;
   file.fps = sequence.truth.size() > 1 ? 1.0 / (sequence.truth[1].time - sequence.truth[0].time) : 30.0;
   write_camera_file(sequence.folder + "/camera.yaml", file);

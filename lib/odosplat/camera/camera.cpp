@@ -42,6 +42,9 @@ void Camera::check() const {
   require_focal("fy", fy, height);
   require_center("cx", cx, width);
   require_center("cy", cy, height);
+  if (!(readout >= -1.0 && readout <= 1.0)) {
+    throw InputError("readout", "must be at most 1 s (line_time times height), is " + number_text(readout));
+  }
 }
 
 Eigen::Matrix3d Camera::matrix() const {
@@ -66,7 +69,7 @@ Camera Camera::level(int l) const {
 Camera Camera::resized(int new_width, int new_height) const {
   const double sx = static_cast<double>(new_width) / width;
   const double sy = static_cast<double>(new_height) / height;
-  return {new_width, new_height, fx * sx, fy * sy, (cx + 0.5) * sx - 0.5, (cy + 0.5) * sy - 0.5};
+  return {new_width, new_height, fx * sx, fy * sy, (cx + 0.5) * sx - 0.5, (cy + 0.5) * sy - 0.5, readout};
 }
 
 }  // namespace odosplat

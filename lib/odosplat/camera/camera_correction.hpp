@@ -9,8 +9,8 @@
 namespace odosplat {
 
 /// Errors of a given camera calibration: with x and y a point's ray at depth 1 and r^2 = x^2 + y^2,
-/// u = fx ((1 + focal) x (1 + radial r^2) + center_u) + cx, v likewise. A rolling shutter takes the row at a share s of
-/// the image's height at the image's time plus (s - 0.5) readout; the ray is the one seen then.
+/// u = fx ((1 + focal) x (1 + radial r^2) + center_u) + cx, v likewise. `readout` adds to the camera's: a row is taken
+/// the sum of both times Camera::time_of_row after the image's time; the ray is the one seen then.
 struct CameraCorrection {
   static constexpr int size = 5;
   using Vector = Eigen::Matrix<double, size, 1>;
@@ -19,7 +19,7 @@ struct CameraCorrection {
   double center_u = 0.0;
   double center_v = 0.0;
   double radial = 0.0;
-  double readout = 0.0;  // [s] from the first row to the last
+  double readout = 0.0;  // [s]
 
   Vector vector() const { return {focal, center_u, center_v, radial, readout}; }
   static CameraCorrection from(const Vector& v) { return {v[0], v[1], v[2], v[3], v[4]}; }
@@ -46,8 +46,6 @@ struct CameraCorrection {
     }
     return {q.x(), q.y(), 1.0};
   }
-  /// Share of the readout time, -0.5..0.5, at which a row is taken.
-  static double time_of_row(const Camera& camera, double v) { return (v + 0.5) / camera.height - 0.5; }
 };
 
 }  // namespace odosplat

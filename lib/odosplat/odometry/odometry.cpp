@@ -6,6 +6,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/odometry/frame/least_size.hpp"
+#include "odosplat/odometry/frame/row_shift.hpp"
 #include "odosplat/odometry/keyframe/keyframe_thread.hpp"
 #include "odosplat/odometry/relocalise/relocalizer.hpp"
 
@@ -244,6 +245,10 @@ bool Odometry::relocalise(const GrayImage& image, const KeyframeRequest& request
   afresh.frame.T_world_camera = answer.T_world_camera;
   afresh.frame.brightness = {};
   afresh.frame.velocity.setZero();
+  if (!request.frame.image.taken->row_motion.isZero(0.0)) {
+    afresh.frame.image =
+        make_even(std::make_shared<FramePyramid>(with_row_motion(*request.frame.image.taken, Vector6d::Zero())));
+  }
   afresh.to_be_confirmed = false;
   afresh.fresh = true;
   TrackResult made;

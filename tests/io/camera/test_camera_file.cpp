@@ -85,6 +85,19 @@ TEST(CameraFile, RoundTripKeepsEveryBit) {
   EXPECT_EQ(read.vignette, file.vignette);
 }
 
+TEST(CameraFile, TheTimeOfALineIsTheReadoutByTheRows) {
+  const CameraFile file = parse_camera_file("c", minimal + "line_time: -2.5e-5\n");
+  EXPECT_DOUBLE_EQ(file.camera.readout, -2.5e-5 * file.camera.height);
+  EXPECT_DOUBLE_EQ(file.camera.level(2).readout, file.camera.readout);
+  EXPECT_DOUBLE_EQ(file.camera.resized(40, 30).readout, file.camera.readout);
+  const TempFolder temp;
+  write_camera_file(temp / "camera.yaml", file);
+  EXPECT_DOUBLE_EQ(read_camera_file(temp / "camera.yaml").camera.readout, file.camera.readout);
+  EXPECT_EQ(parse_camera_file("c", minimal).camera.readout, 0.0);
+  EXPECT_THAT(error_of([] { parse_camera_file("c", minimal + "line_time: 0.1\n"); }),
+              testing::HasSubstr("at most 1 s"));
+}
+
 const std::string depth_camera_lines =
     "depth_camera:\n  width: 24\n  height: 18\n  fx: 22\n  fy: 23\n  cx: 12\n  cy: 9\n"
     "  T_color_depth: [-0.025, 0.001, 0.002, 0, 0, 0, 1]\n";

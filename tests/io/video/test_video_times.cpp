@@ -229,6 +229,8 @@ TEST(VideoTurn, TheCameraMustBeOfTheImagesAsTheyAreShown) {
   const std::string upright = with_matrix(temp, 0, 1, -1, 0);
   options.camera_file = camera(temp, 48, 64);
   EXPECT_EQ(Sequence::open(upright, options).color(0).size(), cv::Size(48, 64));
+  options.camera_file = camera(temp, 48, 64, "line_time: 1e-4\n");
+  EXPECT_THAT(error_of([&] { Sequence::open(upright, options); }), HasSubstr("line_time of " + temp / "c.yaml"));
   options.camera_file = camera(temp, 64, 48);
   EXPECT_THAT(error_of([&] { Sequence::open(upright, options); }),
               HasSubstr("is shown turned by 90 degrees clockwise, as 48x64; " + temp / "c.yaml" + " is for 64x48"));

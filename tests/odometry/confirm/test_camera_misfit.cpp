@@ -29,21 +29,6 @@ class CameraMisfitTest : public testing::Test {
       effect_ = misfit.effect(misfit.add(patches(T_world_camera, told), image, T_world_camera, Vector6d::Zero()), told);
     }
   }
-  /// The image of a rolling shutter: `bands` of rows, each taken at the pose that the camera has then.
-  GrayImage rolling(const SE3& T_world_camera, const Vector6d& velocity, double readout) {
-    constexpr int bands = 40;
-    const int rows = camera_.height / bands;
-    GrayImage image(camera_.height, camera_.width);
-    for (int k = 0; k < bands; ++k) {
-      const double seconds = readout * ((k + 0.5) / bands - 0.5);
-      const SE3 T_camera_world = SE3::exp(seconds * velocity) * T_world_camera.inverse();
-      room_.gray(camera_, T_camera_world.inverse())
-          .rowRange(k * rows, (k + 1) * rows)
-          .copyTo(image.rowRange(k * rows, (k + 1) * rows));
-    }
-    return image;
-  }
-
   test::BoxRoom room_;
   Camera camera_ = test::small_camera();
   MisfitEffect effect_;
@@ -133,7 +118,10 @@ TEST_F(CameraMisfitTest, ARollingShutterIsNamed) {
     CameraMisfit misfit({});
     for (int k = 0; k < 6; ++k) {
       const SE3 T_world_camera = test::room_path(30 * k);
-      const FramePyramid image = build_frame_pyramid(camera_, rolling(T_world_camera, velocity, readout), 0.0);
+      Camera rolling = camera_;
+      rolling.readout = readout;
+      const auto path = [&](double s) { return (SE3::exp(s * velocity) * T_world_camera.inverse()).inverse(); };
+      const FramePyramid image = build_frame_pyramid(camera_, room_.gray(rolling, path), 0.0);
       effect_ = misfit.effect(misfit.add(patches(T_world_camera, camera_), image, T_world_camera, velocity), camera_);
     }
     EXPECT_NEAR(misfit.correction().readout, readout, 0.002);

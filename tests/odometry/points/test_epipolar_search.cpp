@@ -26,7 +26,8 @@ class EpipolarSearchTest : public testing::Test {
     for (float& value : image) {
       value = static_cast<float>(std::exp(brightness.a) * static_cast<double>(value) + brightness.b);
     }
-    trace_points(points_, T_world_target.inverse() * T_world_host_, camera_, image, brightness, {});
+    trace_points(points_, T_world_target.inverse() * T_world_host_, build_frame_pyramid(camera_, image), brightness,
+                 {});
   }
 
   Camera camera_ = test::small_camera();
@@ -83,7 +84,7 @@ TEST_F(EpipolarSearchTest, PointsThatNothingLooksLikeAreGivenUp) {
   ASSERT_FALSE(points_.empty());
   const GrayImage blank(camera_.height, camera_.width, 0.0F);
   const SE3 T_target_host(so3_exp({0.0, 0.0, 0.0}), {-0.1, -0.05, 0.0});
-  for (int i = 0; i < 2; ++i) trace_points(points_, T_target_host, camera_, blank, {}, {});
+  for (int i = 0; i < 2; ++i) trace_points(points_, T_target_host, build_frame_pyramid(camera_, blank), {}, {});
   for (const ImmaturePoint& p : points_) EXPECT_EQ(p.found, 0);
   const auto left = std::count_if(points_.begin(), points_.end(),
                                   [](const ImmaturePoint& p) { return p.status == SearchStatus::outlier; });

@@ -30,8 +30,8 @@ class PointActivationTest : public testing::Test {
 
   void trace_into(const SE3& T_world_camera) {
     for (const auto& host : window_.keyframes) {
-      trace_points(host->immature, T_world_camera.inverse() * host->T_world_camera, camera_,
-                   room_.gray(camera_, T_world_camera), {}, {});
+      trace_points(host->immature, T_world_camera.inverse() * host->T_world_camera,
+                   build_frame_pyramid(camera_, room_.gray(camera_, T_world_camera)), {}, {});
     }
   }
 

@@ -217,6 +217,9 @@ Measured CameraFit::center_v_px(const Camera& camera) const {
 Measured CameraFit::corner_shift_px(const Camera& camera) const {
   return {state.camera.radial * corner_reach(camera), sigma[CameraState::at_radial] * corner_reach(camera)};
 }
+Measured CameraFit::readout_s(const Camera& camera) const {
+  return {camera.readout + state.camera.readout, sigma[CameraState::at_readout]};
+}
 Measured CameraFit::depth_factor() const {
   const double factor = std::exp(state.depth_factor);
   return {factor, factor * sigma[CameraState::at_depth_factor]};

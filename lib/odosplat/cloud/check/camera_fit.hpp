@@ -63,7 +63,8 @@ struct CameraFit {
   Measured center_u_px(const Camera& camera) const;
   Measured center_v_px(const Camera& camera) const;
   Measured corner_shift_px(const Camera& camera) const;  // by the distortion, at the image's corners
-  Measured depth_factor() const;                         // by which depth is to be multiplied
+  Measured readout_s(const Camera& camera) const;
+  Measured depth_factor() const;  // by which depth is to be multiplied
 };
 
 /// Fits focal length, principal point, radial distortion, readout time, the unit of depth and the time offset between

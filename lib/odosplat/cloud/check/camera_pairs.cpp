@@ -98,15 +98,14 @@ struct Prediction {
 Prediction predict(const Camera& camera, const PosesOverTime& poses, const CameraState& state, const CameraPair& pair,
                    const SE3& T_to_given, const VisiblePatch& patch) {
   Prediction result;
-  const auto time_of = [&](double v) {
-    return state.time_offset + state.camera.readout * CameraCorrection::time_of_row(camera, v);
-  };
+  const double readout = camera.readout + state.camera.readout;
+  const auto time_of = [&](double v) { return state.time_offset + readout * camera.time_of_row(v); };
   const SE3 T_world_from = poses.at(pair.from, time_of(patch.y));
   const Eigen::Vector3d p_from = state.camera.ray(camera, patch.x, patch.y) *
                                  (std::exp(state.depth_factor) / static_cast<double>(patch.inverse_depth));
   double row = 0.5 * (camera.height - 1);
   // The row at which the point appears determines when that row was taken; without a readout time once is enough.
-  for (int k = 0; k < (state.camera.readout == 0.0 ? 1 : 3); ++k) {
+  for (int k = 0; k < (readout == 0.0 ? 1 : 3); ++k) {
     result.T_to_from = T_to_given * poses.at(pair.to, time_of(row)).inverse() * T_world_from;
     const Eigen::Vector3d p_to = result.T_to_from * p_from;
     if (!(p_to.z() > 0.01)) return result;

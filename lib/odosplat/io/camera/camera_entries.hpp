@@ -20,7 +20,7 @@ struct DepthCamera {
 };
 
 /// The contents of a camera.yaml. Keys: width height fx fy cx cy (all required), depth_scale, distortion
-/// [k1 k2 p1 p2 k3], fps, time_offset, gamma, vignette, depth_camera.
+/// [k1 k2 p1 p2 k3], fps, time_offset, line_time (camera.readout by the rows), gamma, vignette, depth_camera.
 struct CameraFile {
   Camera camera;    // fy > 0 always; pixel centres at integers
   int fy_sign = 1;  // -1: the file has a negative fy, so poses, and points of the same data set, are reflected

@@ -90,6 +90,7 @@ CameraFile parse_camera_file(const std::string& name, const std::string& text) {
     if (file.fps <= 0.0) reader.fail("fps", "must be positive");
   }
   if (reader.has("time_offset")) file.time_offset = reader.number("time_offset");
+  if (reader.has("line_time")) file.camera.readout = file.camera.height * reader.number("line_time");
   if (reader.has("gamma")) {
     file.gamma = reader.number("gamma");
     if (file.gamma <= 0.0) reader.fail("gamma", "must be positive");
@@ -98,7 +99,7 @@ CameraFile parse_camera_file(const std::string& name, const std::string& text) {
   if (reader.has("depth_camera")) file.depth_camera = read_depth_camera(reader.below("depth_camera"));
   if (!other) {
     reader.refuse_unknown({"width", "height", "fx", "fy", "cx", "cy", "depth_scale", "distortion", "fps", "time_offset",
-                           "gamma", "vignette", "depth_camera"});
+                           "line_time", "gamma", "vignette", "depth_camera"});
   }
   check_camera(name, file);
   return file;
@@ -134,6 +135,7 @@ void write_camera_file(const std::string& path, const CameraFile& file) {
   }
   if (file.fps > 0.0) line("fps", shortest(file.fps));
   if (file.time_offset != 0.0) line("time_offset", shortest(file.time_offset));
+  if (file.camera.readout != 0.0) line("line_time", shortest(file.camera.readout / file.camera.height));
   if (file.gamma > 0.0) line("gamma", shortest(file.gamma));
   if (!file.vignette.empty()) line("vignette", quoted(file.vignette));
   if (file.depth_camera) {

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/frame/row_shift.hpp"
 
 namespace odosplat {
 namespace {
@@ -49,9 +50,11 @@ struct Tie {
 };
 
 /// One pass over the points: residuals, weights and normal equations. Sums in blocks of 256 points in single
-/// precision, blocks in double.
-Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, const GrayImage& image,
-              const Estimate& at, float huber, float cutoff) {
+/// precision, blocks in double. place: moves a point from where the camera of the middle row sees it to where that of
+/// its own row does; the derivatives are taken as those of the middle row.
+template <typename Place>
+Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, const Place& place,
+              const GrayImage& image, const Estimate& at, float huber, float cutoff) {
   constexpr std::size_t block = 256;
   const Eigen::Matrix3f R = at.T.rotation_matrix().cast<float>();
   const Eigen::Vector3f t = at.T.translation().cast<float>();
@@ -81,9 +84,10 @@ Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, c
     const std::size_t end = std::min(points.size(), begin + block);
     for (std::size_t k = begin; k < end; ++k) {
       const ReferencePoint& p = points[k];
-      const float x = R(0, 0) * p.x + R(0, 1) * p.y + R(0, 2) * p.z + t.x();
-      const float y = R(1, 0) * p.x + R(1, 1) * p.y + R(1, 2) * p.z + t.y();
-      const float z = R(2, 0) * p.x + R(2, 1) * p.y + R(2, 2) * p.z + t.z();
+      float x = R(0, 0) * p.x + R(0, 1) * p.y + R(0, 2) * p.z + t.x();
+      float y = R(1, 0) * p.x + R(1, 1) * p.y + R(1, 2) * p.z + t.y();
+      float z = R(2, 0) * p.x + R(2, 1) * p.y + R(2, 2) * p.z + t.z();
+      place(x, y, z);
       if (!(z > 0.01F)) continue;
       const float rz = 1.0F / z;
       const float u = fx * x * rz + cx;
@@ -143,6 +147,24 @@ Sums evaluate(const std::vector<ReferencePoint>& points, const Camera& camera, c
   sums.H = scale.asDiagonal() * sums.H * scale.asDiagonal();
   sums.g = scale.asDiagonal() * sums.g;
   return sums;
+}
+
+/// The same for one level of an image.
+Sums evaluate(const std::vector<ReferencePoint>& points, const FramePyramid& target, std::size_t level,
+              const Camera& camera, const Estimate& at, float huber, float cutoff) {
+  const GrayImage& image = target.gray[level];
+  if (target.row_motion.isZero(0.0)) {
+    return evaluate(
+        points, camera, [](float&, float&, float&) {}, image, at, huber, cutoff);
+  }
+  const RowShift<float> rows(camera, target.row_motion);
+  const auto place = [&rows](float& x, float& y, float& z) {
+    const Eigen::Vector3f p = rows.at(Eigen::Vector3f(x, y, z));
+    x = p.x();
+    y = p.y();
+    z = p.z();
+  };
+  return evaluate(points, camera, place, image, at, huber, cutoff);
 }
 
 double contrast_of(const Sums& s, double gain) {
@@ -207,15 +229,14 @@ Alignment ImageAligner::align(const TrackingReference& reference, const FramePyr
     const auto& points = reference.levels[level];
     if (points.size() < 20) continue;
     const Camera& camera = reference.cameras[level];
-    const GrayImage& image = target.gray[level];
     const int min_in_view = std::max(20, static_cast<int>(options_.min_coverage * static_cast<double>(points.size())));
     // With a wrong guess most residuals are beyond the cut-off and have no influence: it is widened then.
     float cutoff = static_cast<float>(options_.cutoff);
-    Sums sums = evaluate(points, camera, image, estimate, huber, cutoff);
+    Sums sums = evaluate(points, target, level, camera, estimate, huber, cutoff);
     // A coarser level that converged to a wrong pose must not mislead the finer ones: each may start from the guess.
     if (l < top) {
       const Estimate guess{T_target_host_guess, brightness_guess};
-      const Sums guess_sums = evaluate(points, camera, image, guess, huber, cutoff);
+      const Sums guess_sums = evaluate(points, target, level, camera, guess, huber, cutoff);
       if (guess_sums.in_view >= min_in_view &&
           guess_sums.cost / guess_sums.in_view < sums.cost / std::max(1, sums.in_view)) {
         estimate = guess;
@@ -224,7 +245,7 @@ Alignment ImageAligner::align(const TrackingReference& reference, const FramePyr
     }
     for (int widen = 0; widen < 4 && sums.inliers < 0.4 * sums.in_view; ++widen) {
       cutoff *= 2.0F;
-      sums = evaluate(points, camera, image, estimate, huber, cutoff);
+      sums = evaluate(points, target, level, camera, estimate, huber, cutoff);
     }
     if (sums.in_view < min_in_view) return result;
     const auto energy = [&](const Sums& s, const Estimate& e) {
@@ -256,7 +277,7 @@ Alignment ImageAligner::align(const TrackingReference& reference, const FramePyr
         candidate.brightness.a =
             std::clamp(estimate.brightness.a + step[6], -options_.max_log_gain - 0.3, options_.max_log_gain + 0.3);
         candidate.brightness.b = estimate.brightness.b + step[7];
-        next = evaluate(points, camera, image, candidate, huber, cutoff);
+        next = evaluate(points, target, level, camera, candidate, huber, cutoff);
         accepted = next.in_view >= min_in_view && energy(next, candidate) <= current;
         lambda = accepted ? lambda * 0.3 : lambda * 8.0;
       }
@@ -274,7 +295,7 @@ Alignment ImageAligner::align(const TrackingReference& reference, const FramePyr
     result.brightness = estimate.brightness;
     // Quality is computed with the plain cut-off, whatever the level was run with.
     if (cutoff > static_cast<float>(options_.cutoff)) {
-      sums = evaluate(points, camera, image, estimate, huber, static_cast<float>(options_.cutoff));
+      sums = evaluate(points, target, level, camera, estimate, huber, static_cast<float>(options_.cutoff));
     }
     result.rmse = std::sqrt(sums.squares / std::max(1, sums.inliers));
     result.inlier_share = static_cast<double>(sums.inliers) / std::max(1, sums.in_view);

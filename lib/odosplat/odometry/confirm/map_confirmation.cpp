@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/frame/row_shift.hpp"
 #include "odosplat/odometry/frame/tracking_reference.hpp"
 
 namespace odosplat {
@@ -25,6 +26,8 @@ struct Offsets {
     }
   }
 };
+
+constexpr int middle_pixel = patch_pixels / 2 + patch_side / 2;
 
 /// The square less its mean and its slope along both sides. Returns its length before it is scaled to 1.
 float remove_plane(PatchValues& values) {
@@ -174,8 +177,9 @@ MapEvidence ViewPatches::compare(const Level& level, const FramePyramid& image, 
   const auto number = static_cast<std::size_t>(level.number);
   const GrayImage& gray = image.gray[number];
   const Camera& camera = image.cameras[number];
-  const Eigen::Matrix3f R = T_camera_view.rotation().toRotationMatrix().cast<float>();
-  const Eigen::Vector3f t = T_camera_view.translation().cast<float>();
+  Eigen::Matrix3f R = T_camera_view.rotation().toRotationMatrix().cast<float>();
+  Eigen::Vector3f t = T_camera_view.translation().cast<float>();
+  const bool rolling = !image.row_motion.isZero(0.0);
   const auto fx = static_cast<float>(camera.fx);
   const auto fy = static_cast<float>(camera.fy);
   const auto cx = static_cast<float>(camera.cx);
@@ -190,6 +194,11 @@ MapEvidence ViewPatches::compare(const Level& level, const FramePyramid& image, 
   std::vector<SeenSquare> squares;
   squares.reserve(level.patches.size());
   for (const Patch& patch : level.patches) {
+    if (rolling) {
+      const SE3 T_rows_view = at_its_row(T_camera_view, camera, patch.point(middle_pixel), image.row_motion);
+      R = T_rows_view.rotation().toRotationMatrix().cast<float>();
+      t = T_rows_view.translation().cast<float>();
+    }
     const PatchValues z = R(2, 0) * patch.x + R(2, 1) * patch.y + R(2, 2) * patch.z + t.z();
     if (!(z.minCoeff() > 0.01F)) continue;
     const PatchValues u = fx * (R(0, 0) * patch.x + R(0, 1) * patch.y + R(0, 2) * patch.z + t.x()) / z + cx;
@@ -221,7 +230,6 @@ MisfitSystem ViewPatches::misfit(const FramePyramid& image, const SE3& T_camera_
   const Camera& camera = image.cameras[static_cast<std::size_t>(level.number)];
   const SE3 T_camera_view = T_camera_world * T_world_view_;
   const auto to_full_size = static_cast<double>(1 << level.number);
-  constexpr int middle = patch_pixels / 2 + patch_side / 2;
   PatchValues values;
   PatchValues along_u;
   PatchValues along_v;
@@ -232,11 +240,11 @@ MisfitSystem ViewPatches::misfit(const FramePyramid& image, const SE3& T_camera_
     if (!patch.textured) continue;
     bool inside = true;
     Eigen::Matrix<double, 2, MisfitSystem::size> jacobian;
-    const Eigen::Vector3d center = T_camera_view * patch.point(middle);
+    const Eigen::Vector3d center = T_camera_view * patch.point(middle_pixel);
     if (!(center.z() > 0.01)) continue;
     // When the square's rows were taken, as a share of the readout time.
-    const double rows = std::clamp(CameraCorrection::time_of_row(camera, camera.project(center).y()), -0.5, 0.5);
-    const SE3 T_rows_view = SE3::exp(rows * correction.readout * velocity) * T_camera_view;
+    const double rows = std::clamp(camera.time_of_row(camera.project(center).y()), -0.5, 0.5);
+    const SE3 T_rows_view = SE3::exp(rows * (correction.readout * velocity + image.row_motion)) * T_camera_view;
     const Eigen::Matrix3d R = T_rows_view.rotation().toRotationMatrix();
     const Eigen::Vector3d& t = T_rows_view.translation();
     for (int i = 0; i < patch_pixels && inside; ++i) {
@@ -251,7 +259,7 @@ MisfitSystem ViewPatches::misfit(const FramePyramid& image, const SE3& T_camera_
       values[i] = bilinear(gray, uf, vf);
       along_u[i] = bilinear(gray, uf + 0.5F, vf) - bilinear(gray, uf - 0.5F, vf);
       along_v[i] = bilinear(gray, uf, vf + 0.5F) - bilinear(gray, uf, vf - 0.5F);
-      if (i != middle) continue;
+      if (i != middle_pixel) continue;
       const double x = p.x() / p.z();
       const double y = p.y() / p.z();
       const double r2 = x * x + y * y;

@@ -8,6 +8,7 @@
 
 #include "odosplat/camera/camera.hpp"
 #include "odosplat/core/image.hpp"
+#include "odosplat/core/se3.hpp"
 
 namespace odosplat {
 
@@ -32,6 +33,9 @@ Brightness compose_brightness(const Brightness& relative, const Brightness& host
 struct FramePyramid {
   std::vector<Camera> cameras;
   std::vector<GrayImage> gray;
+  /// Of a rolling shutter: the row taken at a share s of the readout time (Camera::time_of_row) shows what a camera at
+  /// exp(s row_motion) T_camera_world sees, where T_camera_world is the image's pose. 0: all rows are taken at once.
+  Vector6d row_motion = Vector6d::Zero();
   int levels() const { return static_cast<int>(gray.size()); }
 };
 

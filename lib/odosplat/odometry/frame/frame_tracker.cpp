@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/frame/row_shift.hpp"
 
 namespace odosplat {
 
@@ -40,11 +41,12 @@ TrackedFrame FrameTracker::track(const PosedFrame& frame) {
   tracked.frame = frame;
   tracked.was_lost = lost_;
   // The row gain of flickering light changes little from frame to frame: the last one is a good start.
-  tracked.frame.image = make_even(frame.image.taken, last_row_gain_);
+  tracked.frame.image = make_even(with_predicted_rows(frame), last_row_gain_);
   if (!lost_) tracked.alignment = track_against_reference(*tracked.frame.image.even, frame.time);
   if (lost_ || !believed(tracked.alignment, false)) tracked.alignment = search_references(*tracked.frame.image.even);
   tracked.found = believed(tracked.alignment, lost_);
   if (!tracked.found) return tracked;
+  measure_rows(tracked);
   even_rows(aligner_, *reference().points, tracked.frame.image, tracked.alignment);
   last_row_gain_ = tracked.frame.image.row_gain;
   const Alignment& alignment = tracked.alignment;
@@ -76,6 +78,26 @@ TrackedFrame FrameTracker::track(const PosedFrame& frame) {
   if (first_rmse_ <= 0.0) first_rmse_ = std::max(alignment.rmse, 1.0 / 255);
   tracked.keyframe_score = keyframe_score(*host.points, alignment, first_rmse, options_.policy).score;
   return tracked;
+}
+
+std::shared_ptr<const FramePyramid> FrameTracker::with_predicted_rows(const PosedFrame& frame) const {
+  const double readout = frame.image.taken->cameras.front().readout;
+  if (readout == 0.0 || lost_ || !(steps_ahead(history_, frame.time) > 0.0)) return frame.image.taken;
+  const Vector6d velocity = velocity_at(history_, frame.time, predict(history_, frame.time));
+  return std::make_shared<FramePyramid>(with_row_motion(*frame.image.taken, readout * velocity));
+}
+
+void FrameTracker::measure_rows(TrackedFrame& tracked) const {
+  EvenFrame& image = tracked.frame.image;
+  if (image.taken->row_motion.isZero(0.0)) return;
+  const SE3 T_world_camera = reference().T_world_camera * tracked.alignment.T_target_host.inverse();
+  const Vector6d velocity = velocity_at(history_, tracked.frame.time, T_world_camera);
+  const double readout = image.taken->cameras.front().readout;
+  image.taken = std::make_shared<FramePyramid>(with_row_motion(*image.taken, readout * velocity));
+  image = make_even(image.taken, image.row_gain);
+  const Alignment again = aligner_.align(*reference().points, *image.even, tracked.alignment.T_target_host,
+                                         tracked.alignment.brightness, 0, 0);
+  if (believed(again, false)) tracked.alignment = again;
 }
 
 void FrameTracker::set_references(std::vector<ReferenceFrame> references, const SE3& T_new_old) {

@@ -98,6 +98,10 @@ class FrameTracker {
   const ReferenceFrame& reference() const { return references_[current_]; }
   Alignment track_against_reference(const FramePyramid& pyramid, double time) const;
   Alignment search_references(const FramePyramid& pyramid);
+  /// The image as taken, of a rolling shutter with the motion that the history predicts.
+  std::shared_ptr<const FramePyramid> with_predicted_rows(const PosedFrame& frame) const;
+  /// Aligns the image of a rolling shutter again, with the motion of its rows that follows from its pose.
+  void measure_rows(TrackedFrame& tracked) const;
   bool as_good_as_last(const Alignment& alignment) const;
   bool believed(const Alignment& alignment, bool was_lost) const;
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/frame/row_shift.hpp"
 #include "odosplat/odometry/reprojection.hpp"
 
 namespace odosplat {
@@ -59,7 +60,7 @@ void KeyframeBackend::trace(const PosedFrame& frame) {
   const SE3 T_camera_world = frame.T_world_camera.inverse();
   for (const auto& host : window_.keyframes) {
     if (host->immature.empty()) continue;
-    trace_points(host->immature, T_camera_world * host->T_world_camera, camera_, frame.image.even->gray.front(),
+    trace_points(host->immature, T_camera_world * host->T_world_camera, *frame.image.even,
                  relative_brightness(frame.brightness, host->brightness), options_.keyframe.immature);
   }
 }
@@ -146,6 +147,13 @@ KeyframeBackend::Attempt KeyframeBackend::make(const KeyframeRequest& request, E
   Attempt result;
   result.prefetched = ahead.has_value();
   RenderedView view = ahead ? std::move(*ahead) : seen_from(map, request.frame.T_world_camera);
+  {
+    const StageTimer timer(stages_[stage_keyframe]);
+    if (!image.even->row_motion.isZero(0.0)) {
+      image = make_even(std::make_shared<FramePyramid>(with_rows_together(*image.even, view.images.depth)));
+    }
+    gradients = build_gradients(*image.even);
+  }
   if (anchor.enabled && request.view == nullptr && map_share(view.images) < memory_.options().map_share) {
     std::vector<Recollection> recalled = recall(*image.even, request.frame.T_world_camera);
     if (!recalled.empty()) {
@@ -228,10 +236,6 @@ KeyframeOutcome KeyframeBackend::add(const KeyframeRequest& request) {
   }
   EvenFrame image = request.frame.image;
   std::vector<GradientImage> gradients;
-  {
-    const StageTimer timer(stages_[stage_keyframe]);
-    gradients = build_gradients(*image.even);
-  }
   auto [made, corrected, prefetched, links, patches] = make(request, image, gradients);
   KeyframeOutcome outcome;
   outcome.map_share = made.map_share;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/odometry/frame/row_shift.hpp"
 
 namespace odosplat {
 namespace {
@@ -93,9 +94,12 @@ std::vector<BrightnessSample> brightness_samples(const TrackingReference& refere
   const Camera& camera = reference.cameras[level];
   const GrayImage& image = target.gray[level];
   const double gain = std::exp(brightness.a);
+  const bool rolling = !target.row_motion.isZero(0.0);
+  const RowShift<double> rows(camera, target.row_motion);
   samples.reserve(reference.levels[level].size());
   for (const ReferencePoint& point : reference.levels[level]) {
-    const Eigen::Vector3d p = T_target_host * Eigen::Vector3d(point.x, point.y, point.z);
+    Eigen::Vector3d p = T_target_host * Eigen::Vector3d(point.x, point.y, point.z);
+    if (rolling) p = rows.at(p);
     if (!(p.z() > 0.01)) continue;
     const Eigen::Vector2d uv = camera.project(p);
     if (!(uv.x() >= 1.0 && uv.y() >= 1.0 && uv.x() < image.cols - 2.0 && uv.y() < image.rows - 2.0)) continue;

@@ -4,6 +4,7 @@
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/parallel.hpp"
+#include "odosplat/odometry/frame/row_shift.hpp"
 
 namespace odosplat {
 
@@ -50,13 +51,21 @@ std::vector<ImmaturePoint> make_immature_points(std::span<const GradientImage> g
   return points;
 }
 
-void trace_points(std::vector<ImmaturePoint>& points, const SE3& T_target_host, const Camera& camera,
-                  const GrayImage& target, const Brightness& brightness, const ImmaturePointOptions& options) {
+void trace_points(std::vector<ImmaturePoint>& points, const SE3& T_target_host, const FramePyramid& target,
+                  const Brightness& brightness, const ImmaturePointOptions& options) {
   constexpr int chunk = 64;
+  const Camera& camera = target.cameras.front();
+  const bool rolling = !target.row_motion.isZero(0.0);
+  const auto T_row_host = [&](const ImmaturePoint& point) {
+    if (!rolling) return T_target_host;
+    const double q = 0.5 * (point.min_q + point.max_q);
+    return at_its_row(T_target_host, camera, camera.ray(point.u, point.v) / q, target.row_motion);
+  };
   parallel_for(static_cast<int>(points.size()), chunk, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       ImmaturePoint& point = points[static_cast<std::size_t>(i)];
-      const SearchResult found = search_epipolar_line(point, T_target_host, camera, target, brightness, options.search);
+      const SearchResult found =
+          search_epipolar_line(point, T_row_host(point), camera, target.gray.front(), brightness, options.search);
       point.status = found.status;
       if (found.status != SearchStatus::out_of_view) point.length = found.length;
       if (found.status == SearchStatus::outlier) {

@@ -38,8 +38,9 @@ std::vector<ImmaturePoint> make_immature_points(std::span<const GradientImage> g
                                                 const ImmaturePointOptions& options);
 
 /// Searches all points in one more image and takes out those that it contradicts. brightness: the target's relative to
-/// the host's. Several threads; same bits for any number of them.
-void trace_points(std::vector<ImmaturePoint>& points, const SE3& T_target_host, const Camera& camera,
-                  const GrayImage& target, const Brightness& brightness, const ImmaturePointOptions& options);
+/// the host's. Where the target's rows move, a point is searched as its row sees it at the middle of its interval.
+/// Several threads; same bits for any number of them.
+void trace_points(std::vector<ImmaturePoint>& points, const SE3& T_target_host, const FramePyramid& target,
+                  const Brightness& brightness, const ImmaturePointOptions& options);
 
 }  // namespace odosplat
