@@ -7,19 +7,24 @@
 
 namespace odosplat {
 
-/// Lens distortion on the plane z = 1, with the same model as Undistorter.
+/// Lens distortion on the plane z = 1, the model of Undistorter.
 class LensModel {
  public:
+  LensModel() = default;
   /// d: k1 k2 p1 p2 k3, or without k3.
   explicit LensModel(const std::vector<double>& d)
       : k1_(d[0]), k2_(d[1]), p1_(d[2]), p2_(d[3]), k3_(d.size() > 4 ? d[4] : 0.0) {}
 
   Eigen::Vector2d distorted(const Eigen::Vector2d& p) const {
-    const double r2 = p.squaredNorm();
-    const double xy = p.x() * p.y();
-    return p * radial(r2) + Eigen::Vector2d(2.0 * p1_ * xy + p2_ * (r2 + 2.0 * p.x() * p.x()),
-                                            p1_ * (r2 + 2.0 * p.y() * p.y()) + 2.0 * p2_ * xy);
+    const double x = p.x();
+    const double y = p.y();
+    const double r2 = x * x + y * y;
+    return {x * radial(r2) + 2.0 * p1_ * x * y + p2_ * (r2 + 2.0 * x * x),
+            y * radial(r2) + p1_ * (r2 + 2.0 * y * y) + 2.0 * p2_ * x * y};
   }
+
+  /// Derivative of r radial(r^2) by r: where it is not positive, the lens shows a ray twice.
+  double radial_slope(double r2) const { return 1.0 + r2 * (3.0 * k1_ + r2 * (5.0 * k2_ + r2 * 7.0 * k3_)); }
 
   /// d distorted / d p
   Eigen::Matrix2d slope(const Eigen::Vector2d& p) const {
@@ -36,11 +41,11 @@ class LensModel {
  private:
   double radial(double r2) const { return 1.0 + r2 * (k1_ + r2 * (k2_ + r2 * k3_)); }
 
-  double k1_;
-  double k2_;
-  double p1_;
-  double p2_;
-  double k3_;
+  double k1_ = 0.0;
+  double k2_ = 0.0;
+  double p1_ = 0.0;
+  double p2_ = 0.0;
+  double k3_ = 0.0;
 };
 
 }  // namespace odosplat

@@ -10,15 +10,11 @@ namespace odosplat {
 
 Undistorter::Undistorter(const Camera& camera, const std::vector<double>& distortion) : camera_(camera) {
   if (std::all_of(distortion.begin(), distortion.end(), [](double d) { return d == 0.0; })) return;
-  k1_ = distortion[0];
-  k2_ = distortion[1];
-  p1_ = distortion[2];
-  p2_ = distortion[3];
-  k3_ = distortion.size() > 4 ? distortion[4] : 0.0;
+  lens_ = LensModel(distortion);
   // r (1 + k1 r^2 + ...) increases up to the first root of its derivative 1 + 3 k1 r^2 + 5 k2 r^4 + 7 k3 r^6.
   double turn = std::numeric_limits<double>::infinity();  // in r^2
   for (double r2 = 0.0; r2 < 10.0; r2 += 1e-3) {
-    if (1.0 + r2 * (3.0 * k1_ + r2 * (5.0 * k2_ + r2 * 7.0 * k3_)) <= 0.0) {
+    if (lens_.radial_slope(r2) <= 0.0) {
       turn = r2;
       break;
     }
@@ -36,14 +32,8 @@ Undistorter::Undistorter(const Camera& camera, const std::vector<double>& distor
 }
 
 Eigen::Vector2d Undistorter::distort(double u, double v) const {
-  const Eigen::Vector3d ray = camera_.ray(u, v);
-  const double x = ray.x();
-  const double y = ray.y();
-  const double r2 = x * x + y * y;
-  const double radial = 1.0 + r2 * (k1_ + r2 * (k2_ + r2 * k3_));
-  const double xd = x * radial + 2.0 * p1_ * x * y + p2_ * (r2 + 2.0 * x * x);
-  const double yd = y * radial + p1_ * (r2 + 2.0 * y * y) + 2.0 * p2_ * x * y;
-  return {camera_.fx * xd + camera_.cx, camera_.fy * yd + camera_.cy};
+  const Eigen::Vector2d p = lens_.distorted(camera_.ray(u, v).head<2>());
+  return {camera_.fx * p.x() + camera_.cx, camera_.fy * p.y() + camera_.cy};
 }
 
 ColorImage Undistorter::color(const ColorImage& distorted) const {

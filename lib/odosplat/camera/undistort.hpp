@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "odosplat/camera/camera.hpp"
+#include "odosplat/camera/lens_model.hpp"
 #include "odosplat/core/image.hpp"
 
 namespace odosplat {
@@ -36,11 +37,7 @@ class Undistorter {
 
  private:
   Camera camera_;
-  double k1_ = 0.0;
-  double k2_ = 0.0;
-  double p1_ = 0.0;
-  double p2_ = 0.0;
-  double k3_ = 0.0;
+  LensModel lens_;
   cv::Mat2f source_;  // pixel of the distorted image, (-1, -1) = not in the image
 };
 
