@@ -25,10 +25,10 @@ constexpr double derivative_step = 1e-5;  // of numeric derivatives
 
 // A patch whose plane is fitted to the depth at its pixels; none where depth is missing or bent.
 std::optional<VisiblePatch> patch_at(const DepthImage& depth, int x, int y) {
-  constexpr int least = patch_side * patch_side * 2 / 3;
+  constexpr int least = visible_patch_side * visible_patch_side * 2 / 3;
   Eigen::Matrix3f H = Eigen::Matrix3f::Zero();
   Eigen::Vector3f b = Eigen::Vector3f::Zero();
-  std::array<Eigen::Vector4f, patch_side * patch_side> samples;
+  std::array<Eigen::Vector4f, visible_patch_side * visible_patch_side> samples;
   int count = 0;
   for (int dy = -patch_reach; dy <= patch_reach; dy += patch_step) {
     for (int dx = -patch_reach; dx <= patch_reach; dx += patch_step) {

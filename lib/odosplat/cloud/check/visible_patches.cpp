@@ -12,7 +12,7 @@
 namespace odosplat {
 namespace {
 
-constexpr int pixels = patch_side * patch_side;
+constexpr int pixels = visible_patch_side * visible_patch_side;
 constexpr double least_contrast = 3.0 / 255.0;
 constexpr double min_depth = 0.1;  // [m]
 // On a square grid discs leave no gaps from a radius of 0.71 grid spacings on. `spacing`, the mean distance to six

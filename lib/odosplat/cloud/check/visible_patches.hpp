@@ -24,9 +24,9 @@ struct VisiblePatch {
 };
 
 /// 5 x 5 pixels: every second pixel of 9 x 9.
-inline constexpr int patch_side = 5;
+inline constexpr int visible_patch_side = 5;
 inline constexpr int patch_step = 2;
-inline constexpr int patch_reach = patch_step * (patch_side / 2);
+inline constexpr int patch_reach = patch_step * (visible_patch_side / 2);
 
 /// Patches around points of the cloud (with normals and spacings [m]) that are not occluded and have texture (standard
 /// deviation of at least 3 grey levels of 255); at most `most`, picked evenly in the cloud's order, and one per pixel.

@@ -156,8 +156,9 @@ std::string CameraMisfit::likely_cause(const Camera& camera) const {
       return formatted("the images look distorted otherwise than the camera file says: by %.1f px at half their width",
                        error.pixels);
     default:
+      const double readout = camera.readout + found.readout;
       return formatted("the images look as if their rows were taken one after the other, within %.0f ms%s",
-                       1000.0 * std::abs(found.readout), positive ? " (rolling shutter)" : ", the last one first");
+                       1000.0 * std::abs(readout), readout > 0.0 ? " (rolling shutter)" : ", the last one first");
   }
 }
 
