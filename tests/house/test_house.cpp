@@ -227,10 +227,10 @@ std::string bare(const std::string& text) {
   return kept;
 }
 
-// Qualified names of the types that a file defines, except within functions, types and unnamed namespaces.
-std::vector<std::string> types_defined_in(const std::string& text) {
+// Qualified names of the types and inline constants that a file defines, except within functions, types and unnamed namespaces.
+std::vector<std::string> names_defined_in(const std::string& text) {
   static const std::regex token(
-      R"re(\bnamespace\s*([\w:]*)\s*\{|\b(?:struct|class|enum class|enum|union)\s+(?:alignas\([^)]*\)\s*)?([\w:]+)[^;{}()=<>]*(?:<[^;{}()]*)?\{|\{|\})re");
+      R"re(\bnamespace\s*([\w:]*)\s*\{|\b(?:struct|class|enum class|enum|union)\s+(?:alignas\([^)]*\)\s*)?([\w:]+)[^;{}()=<>]*(?:<[^;{}()]*)?\{|\binline\s+constexpr\s+[^;{}()=]*?\b(\w+)(?=\s*(?:\[\w*\])?\s*[={])|\{|\})re");
   std::vector<std::string> scopes;  // "" for a scope whose types are not counted
   std::vector<std::string> found;
   const std::string code = bare(text);
@@ -246,27 +246,31 @@ std::vector<std::string> types_defined_in(const std::string& text) {
       counted = counted && !scope.empty();
       path += scope + "::";
     }
-    if ((*it)[2].matched && counted && !scopes.empty()) found.push_back(path + it->str(2));
+    const std::string name = (*it)[2].matched ? it->str(2) : it->str(3);
+    if (!name.empty() && counted && !scopes.empty()) found.push_back(path + name);
+    if ((*it)[3].matched) continue;
     scopes.push_back((*it)[1].matched ? it->str(1) : "");
   }
   return found;
 }
 
-TEST(House, FindsTypesOnlyWhereTheyAreDefinedForAll) {
+TEST(House, FindsNamesOnlyWhereTheyAreDefinedForAll) {
   EXPECT_THAT(
-      types_defined_in(
+      names_defined_in(
           "struct Outside {}; namespace a::b { // struct No {\n struct alignas(64) One : Base<int> { struct In {}; };"
           "template <class Row> void f(Row) { struct Local {}; } class Two; enum class Three { x };"
-          "namespace { struct Four {}; } const char* text = \"struct Five {\"; class Six final {}; }"),
-      testing::ElementsAre("a::b::One", "a::b::Three", "a::b::Six"));
+          "namespace { struct Four {}; } const char* text = \"struct Five {\"; class Six final {}; "
+          "inline constexpr int seven = 7; inline constexpr std::array<int, 2> eight{1, 2}; constexpr int no = 0;"
+          "inline constexpr char nine[] = {}; void g() { inline constexpr int no = 1; } }"),
+      testing::ElementsAre("a::b::One", "a::b::Three", "a::b::Six", "a::b::seven", "a::b::eight", "a::b::nine"));
 }
 
-// Two types with the same name in one program are undefined behaviour, even in different libraries.
-TEST(House, TypeNamesAreUnique) {
+// Two types or inline constants with the same name in one program are undefined behaviour, even in different libraries.
+TEST(House, NamesAreUnique) {
   std::map<std::string, std::string> places;
   for (const char* folder : code_folders) {
     for (const fs::path& file : sources_in(folder)) {
-      for (const std::string& name : types_defined_in(text_of(file))) {
+      for (const std::string& name : names_defined_in(text_of(file))) {
         const auto [place, added] = places.emplace(name, file.string());
         EXPECT_TRUE(added) << name << " is defined in " << place->second << " and in " << file;
       }
