@@ -112,7 +112,7 @@ const std::map<std::string, std::string>& value_words() {
       {"report", "FILE"},      {"root", "FOLDER"},      {"scene", "NAME|FILE"},  {"sequences", "NAME,..."},
       {"size", "WxH"},         {"start", "POSE"},       {"suite", "NAME|FILE"},  {"times", "FILE"},
       {"truth", "FILE"},       {"truth-times", "FILE"}, {"walk", "NAME"},        {"what", "NAME,..."},
-      {"without-half", "SIDE"}};
+      {"without-half", "SIDE"}, {"box", "BOX"},         {"seen-by", "SEQ|FILE"}, {"T", "POSE"}};
   return words;
 }
 

@@ -15,6 +15,7 @@
 #include "odosplat/io/cloud/cloud_file.hpp"
 #include "odosplat/map/interpolation_view.hpp"
 #include "odosplat/map/surfel_view.hpp"
+#include "odosplat/splat/edit/kept_gaussians.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
 #include "odosplat/splat/map_file.hpp"
 
@@ -47,31 +48,13 @@ std::vector<Eigen::Vector3f> positions(const Gaussians& gaussians) {
   return points;
 }
 
-/// Keeps only the given rows of `values`, which has `width` values per row.
-void keep_rows(std::vector<float>& values, const std::vector<std::size_t>& rows, std::size_t width) {
-  std::vector<float> kept;
-  kept.reserve(rows.size() * width);
-  for (const std::size_t row : rows) {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * width);
-    kept.insert(kept.end(), begin, begin + static_cast<std::ptrdiff_t>(width));
-  }
-  values = std::move(kept);
-}
-
-Gaussians without_half(Gaussians gaussians, const std::string& side) {
+Gaussians without_half(const Gaussians& gaussians, const std::string& side) {
   if (side.empty()) return gaussians;
   const std::vector<Eigen::Vector3f> points = positions(gaussians);
   const MapHalf half = half_of(points, side);
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!half.contains(points[i])) rows.push_back(i);
-  }
-  keep_rows(gaussians.positions, rows, 3);
-  keep_rows(gaussians.log_scales, rows, 3);
-  keep_rows(gaussians.rotations, rows, 4);
-  keep_rows(gaussians.opacity_logits, rows, 1);
-  keep_rows(gaussians.sh, rows, 3 * static_cast<std::size_t>(gaussians.coefficients()));
-  return gaussians;
+  std::vector<bool> keep(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) keep[i] = !half.contains(points[i]);
+  return kept_gaussians(gaussians, keep);
 }
 
 PointCloud without_half(const PointCloud& cloud, const std::string& side) {
@@ -120,7 +103,7 @@ OpenedView open_view(const Common& common, const std::string& method, const MapF
   switch (preset.view) {
     case ViewKind::gaussians: {
       Map map = read_map(needed(method, "--map", flags.map));
-      map.gaussians = without_half(std::move(map.gaussians), flags.without_half);
+      map.gaussians = without_half(map.gaussians, flags.without_half);
       const std::optional<MapQuality>& quality = map.header.quality;
       if (quality && !quality->good) log_warning(flags.map + ": its header says: " + quality->verdict);
       opened.device = open_device(common);
