@@ -97,30 +97,32 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-/// Whether point i and its nearest lie in a plane that is also that of its Gaussian, if flat.
+/// Whether the points nearest to point i lie in a plane, in which i lies too, with its Gaussian's plane, if that is
+/// flat.
 bool in_a_plane(const GaussianShapes& shapes, std::size_t i, const Neighborhood& near) {
   constexpr float most_rms = 0.08F;  // of the mean distance; eight points at random in space have about 0.3
+  constexpr float most_off = 0.25F;  // likewise, of i from the plane
   constexpr float same_normal = 0.9F;
   const std::size_t n = std::min(linked, near.count());
   if (n < 4) return false;
-  Eigen::Vector3f mean = shapes.cloud.points[i];
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   float distance = 0.0F;
   for (std::size_t k = 0; k < n; ++k) {
     mean += shapes.cloud.points[near.index(i, k)];
     distance += near.distance(i, k);
   }
-  mean /= static_cast<float>(n + 1);
+  mean /= static_cast<float>(n);
   distance /= static_cast<float>(n);
   Eigen::Matrix3f scatter = Eigen::Matrix3f::Zero();
-  const auto add = [&](std::size_t j) {
-    const Eigen::Vector3f d = shapes.cloud.points[j] - mean;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Eigen::Vector3f d = shapes.cloud.points[near.index(i, k)] - mean;
     scatter += d * d.transpose();
-  };
-  add(i);
-  for (std::size_t k = 0; k < n; ++k) add(near.index(i, k));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(scatter / static_cast<float>(n + 1));
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(scatter / static_cast<float>(n));
+  const Eigen::Vector3f normal = solver.eigenvectors().col(0);
   if (std::sqrt(std::max(solver.eigenvalues()[0], 0.0F)) > most_rms * distance) return false;
-  return shapes.flat[i] == 0 || std::abs(solver.eigenvectors().col(0).dot(shapes.cloud.normals[i])) >= same_normal;
+  if (std::abs(normal.dot(shapes.cloud.points[i] - mean)) > most_off * distance) return false;
+  return shapes.flat[i] == 0 || std::abs(normal.dot(shapes.cloud.normals[i])) >= same_normal;
 }
 
 void mark_isolated(const GaussianShapes& shapes, const FloaterOptions& options, std::vector<Floater>& floaters) {
