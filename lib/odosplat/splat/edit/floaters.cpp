@@ -18,7 +18,7 @@
 namespace odosplat {
 namespace {
 
-constexpr int chunk = 512;
+constexpr int floater_chunk = 512;
 constexpr std::size_t around = 16;  // neighbours whose spacing is that of the surface there
 constexpr std::size_t linked = 8;   // neighbours that a Gaussian may be in a group with
 
@@ -30,7 +30,7 @@ class Neighborhood {
         indices_(points.size() * count_),
         distances_(points.size() * count_) {
     const NeighborSearch search(points);
-    parallel_for(static_cast<int>(points.size()), chunk, [&](int begin, int end) {
+    parallel_for(static_cast<int>(points.size()), floater_chunk, [&](int begin, int end) {
       std::array<int, around + 1> near{};
       std::array<float, around + 1> squared{};
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {

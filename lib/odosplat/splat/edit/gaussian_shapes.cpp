@@ -12,9 +12,9 @@
 namespace odosplat {
 namespace {
 
-constexpr int spacing_neighbors = 6;
-constexpr int normal_neighbors = 12;
-constexpr float most_flatness = 0.5F;  // shortest over middle axis
+constexpr int shape_spacing_neighbors = 6;
+constexpr int shape_normal_neighbors = 12;
+constexpr float most_flat_ratio = 0.5F;  // shortest over middle axis
 
 Eigen::Vector3f axis_of(const Gaussians& gaussians, std::size_t i, int axis) {
   const float* r = &gaussians.rotations[4 * i];
@@ -45,17 +45,17 @@ GaussianShapes gaussian_shapes(const Gaussians& gaussians) {
     shapes.cloud.colors.emplace_back(sh_constant * Eigen::Vector3f(&gaussians.sh[stride * i]) +
                                      Eigen::Vector3f::Constant(0.5F));
     std::sort(scale.begin(), scale.end());
-    shapes.flat.push_back(scale[0] <= most_flatness * scale[1] ? 1 : 0);
+    shapes.flat.push_back(scale[0] <= most_flat_ratio * scale[1] ? 1 : 0);
     all_flat = all_flat && shapes.flat.back() != 0;
     shapes.thickness.push_back(scale[0]);
     shapes.length.push_back(scale[2]);
     shapes.opacities.push_back(1.0F / (1.0F + std::exp(-gaussians.opacity_logits[i])));
   }
-  shapes.spacings = mean_neighbor_distances(shapes.cloud, spacing_neighbors);
+  shapes.spacings = mean_neighbor_distances(shapes.cloud, shape_spacing_neighbors);
   if (all_flat) return shapes;
   PointCloud fitted;
   fitted.points = shapes.cloud.points;
-  estimate_normals(fitted, normal_neighbors);
+  estimate_normals(fitted, shape_normal_neighbors);
   for (std::size_t i = 0; i < n; ++i) {
     if (shapes.flat[i] == 0) shapes.cloud.normals[i] = fitted.normals[i];
   }

@@ -14,8 +14,8 @@
 namespace odosplat {
 namespace {
 
-constexpr int chunk = 1024;
-constexpr float near_depth = 0.05F;  // [m] as the rasteriser's
+constexpr int vote_chunk = 1024;
+constexpr float least_depth = 0.05F;  // [m] as the rasteriser's
 
 /// How often a Gaussian was seen before the surface, and on it.
 struct Votes {
@@ -42,11 +42,11 @@ float nearest_depth(const DepthImage& depth, int x, int y) {
 void vote(const GaussianShapes& shapes, const std::vector<float>& margins, const EditView& view,
           const DepthImage& depth, const FloaterOptions& options, std::vector<Votes>& votes) {
   const SE3 T_camera_world = view.T_world_camera.inverse();
-  parallel_for(static_cast<int>(shapes.size()), chunk, [&](int begin, int end) {
+  parallel_for(static_cast<int>(shapes.size()), vote_chunk, [&](int begin, int end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       const Eigen::Vector3d p_camera = T_camera_world * shapes.cloud.points[i].cast<double>();
       const auto z = static_cast<float>(p_camera.z());
-      if (!(z > near_depth)) continue;
+      if (!(z > least_depth)) continue;
       const Eigen::Vector2d pixel = view.camera.project(p_camera);
       if (!(pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() <= view.camera.width - 1.0 &&
             pixel.y() <= view.camera.height - 1.0))

@@ -10,7 +10,7 @@ namespace odosplat {
 namespace {
 
 /// Of `values`, with `width` values per row, the rows to keep.
-std::vector<float> kept_rows(const std::vector<float>& values, const std::vector<bool>& keep, std::size_t width) {
+std::vector<float> rows_to_keep(const std::vector<float>& values, const std::vector<bool>& keep, std::size_t width) {
   std::vector<float> kept;
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (!keep[i]) continue;
@@ -20,7 +20,7 @@ std::vector<float> kept_rows(const std::vector<float>& values, const std::vector
   return kept;
 }
 
-void append(std::vector<float>& values, const std::vector<float>& more) {
+void append_values(std::vector<float>& values, const std::vector<float>& more) {
   values.insert(values.end(), more.begin(), more.end());
 }
 
@@ -30,11 +30,11 @@ Gaussians kept_gaussians(const Gaussians& gaussians, const std::vector<bool>& ke
   require(keep.size() == gaussians.size(), "keep", "one per Gaussian");
   Gaussians kept;
   kept.sh_degree = gaussians.sh_degree;
-  kept.positions = kept_rows(gaussians.positions, keep, 3);
-  kept.log_scales = kept_rows(gaussians.log_scales, keep, 3);
-  kept.rotations = kept_rows(gaussians.rotations, keep, 4);
-  kept.opacity_logits = kept_rows(gaussians.opacity_logits, keep, 1);
-  kept.sh = kept_rows(gaussians.sh, keep, 3 * static_cast<std::size_t>(gaussians.coefficients()));
+  kept.positions = rows_to_keep(gaussians.positions, keep, 3);
+  kept.log_scales = rows_to_keep(gaussians.log_scales, keep, 3);
+  kept.rotations = rows_to_keep(gaussians.rotations, keep, 4);
+  kept.opacity_logits = rows_to_keep(gaussians.opacity_logits, keep, 1);
+  kept.sh = rows_to_keep(gaussians.sh, keep, 3 * static_cast<std::size_t>(gaussians.coefficients()));
   return kept;
 }
 
@@ -54,11 +54,11 @@ Gaussians with_sh_degree(const Gaussians& gaussians, int degree) {
 void append_gaussians(Gaussians& gaussians, const Gaussians& more) {
   const int degree = std::max(gaussians.sh_degree, more.sh_degree);
   if (gaussians.sh_degree < degree) gaussians = with_sh_degree(gaussians, degree);
-  append(gaussians.positions, more.positions);
-  append(gaussians.log_scales, more.log_scales);
-  append(gaussians.rotations, more.rotations);
-  append(gaussians.opacity_logits, more.opacity_logits);
-  append(gaussians.sh, more.sh_degree < degree ? with_sh_degree(more, degree).sh : more.sh);
+  append_values(gaussians.positions, more.positions);
+  append_values(gaussians.log_scales, more.log_scales);
+  append_values(gaussians.rotations, more.rotations);
+  append_values(gaussians.opacity_logits, more.opacity_logits);
+  append_values(gaussians.sh, more.sh_degree < degree ? with_sh_degree(more, degree).sh : more.sh);
 }
 
 }  // namespace odosplat

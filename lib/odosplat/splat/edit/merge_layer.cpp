@@ -16,8 +16,8 @@
 namespace odosplat {
 namespace {
 
-constexpr int neighbors = 12;
-constexpr int chunk = 512;
+constexpr int merge_neighbors = 12;
+constexpr int merge_chunk = 512;
 constexpr float solid_opacity = 0.3F;
 constexpr float same_direction = 0.7071F;  // cosine of 45 degrees
 // Tangential distances, in spacings of the covering map. Between its Gaussians a place is at most about one spacing
@@ -60,9 +60,9 @@ Subset solid_subset(const MergeLayer& layer, const std::vector<bool>& usable) {
 
 bool is_covered(const MergeLayer& layer, std::size_t i, const MergeLayer& other, const Subset& subset,
                 const NeighborSearch& search, const MergeOptions& options) {
-  std::array<int, neighbors> near{};
-  std::array<float, neighbors> squared{};
-  const int found = search.nearest(layer.points[i], neighbors, near.data(), squared.data());
+  std::array<int, merge_neighbors> near{};
+  std::array<float, merge_neighbors> squared{};
+  const int found = search.nearest(layer.points[i], merge_neighbors, near.data(), squared.data());
   const float reach = std::max(inside_spacings, merged_spacings);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   float distances = 0.0F;
@@ -135,7 +135,7 @@ std::vector<bool> covered(const MergeLayer& layer, const MergeLayer& other, cons
   if (subset.rows.empty()) return std::vector<bool>(layer.size(), false);
   const NeighborSearch search(subset.points);
   std::vector<char> found(layer.size(), 0);  // bits of vector<bool> cannot be written by several threads
-  parallel_for(static_cast<int>(layer.size()), chunk, [&](int begin, int end) {
+  parallel_for(static_cast<int>(layer.size()), merge_chunk, [&](int begin, int end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       found[i] = is_covered(layer, i, other, subset, search, options) ? 1 : 0;
     }
@@ -160,12 +160,12 @@ MergeOverlap compare_surfaces(const MergeLayer& layer, const MergeLayer& other) 
   if (subset.rows.empty()) return overlap;
   const NeighborSearch search(subset.points);
   std::vector<Pair> pairs(layer.size());
-  parallel_for(static_cast<int>(layer.size()), chunk, [&](int begin, int end) {
-    std::array<int, neighbors> near{};
-    std::array<float, neighbors> squared{};
+  parallel_for(static_cast<int>(layer.size()), merge_chunk, [&](int begin, int end) {
+    std::array<int, merge_neighbors> near{};
+    std::array<float, merge_neighbors> squared{};
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       if (layer.solid[i] == 0 || layer.flat[i] == 0) continue;
-      const int found = search.nearest(layer.points[i], neighbors, near.data(), squared.data());
+      const int found = search.nearest(layer.points[i], merge_neighbors, near.data(), squared.data());
       float least_across = std::numeric_limits<float>::infinity();
       for (int k = 0; k < found; ++k) {
         const std::size_t j = subset.rows[static_cast<std::size_t>(near[static_cast<std::size_t>(k)])];
@@ -242,7 +242,7 @@ MergePatches merge_patches(const MergeLayer& a, const MergeLayer& b, double radi
   const NeighborSearch search(centres);
   const auto nearest = [&](const std::vector<Eigen::Vector3f>& points) {
     std::vector<int> patches(points.size());
-    parallel_for(static_cast<int>(points.size()), chunk, [&](int begin, int end) {
+    parallel_for(static_cast<int>(points.size()), merge_chunk, [&](int begin, int end) {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
         float squared = 0.0F;
         search.nearest(points[i], 1, &patches[i], &squared);

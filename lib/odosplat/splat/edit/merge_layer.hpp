@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "odosplat/splat/edit/merge.hpp"
+#include "odosplat/splat/edit/merge_options.hpp"
+#include "odosplat/splat/map.hpp"
 
 namespace odosplat {
 
