@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "apps/input/cloud_files.hpp"
+#include "apps/input/map_formats.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/upper_median.hpp"
@@ -73,7 +74,7 @@ PointCloud without_half(const PointCloud& cloud, const std::string& side) {
 }  // namespace
 
 void add_map_flags(CLI::App* command, MapFlags& flags) {
-  command->add_option("--map", flags.map, "map of Gaussians (PLY, as train writes it, or .splat)");
+  command->add_option("--map", flags.map, std::string("map of Gaussians (") + map_formats + ")");
   command->add_option("--depth", flags.depth,
                       "what the depth of a pixel is: surface, expected, median or blended (default: the method's)");
   command->add_option("--cloud", flags.cloud, cloud_formats);

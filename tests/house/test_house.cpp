@@ -82,7 +82,7 @@ std::vector<std::string> includes_of(const std::string& text) {
 // The library's name as in the table; "" for the standard library and POSIX.
 std::string library_of(const std::string& include) {
   static const std::regex foreign(
-      R"re((Eigen|opencv2/\w+|ceres|libav\w+|libsw\w+|CL|EGL|GL|spdlog|yaml-cpp|nlohmann|tbb|zlib|CLI|gtest|gmock)[/.].*)re");
+      R"re((Eigen|opencv2/\w+|ceres|libav\w+|libsw\w+|CL|EGL|GL|spdlog|yaml-cpp|nlohmann|tbb|zlib|zstd|CLI|gtest|gmock)[/.].*)re");
   std::smatch match;
   if (std::regex_match(include, match, foreign)) return match[1];
   if (include.rfind("nanoflann", 0) == 0) return "nanoflann";

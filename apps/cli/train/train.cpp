@@ -16,6 +16,7 @@
 #include "apps/command/number_flags.hpp"
 #include "apps/command/output.hpp"
 #include "apps/input/cloud_files.hpp"
+#include "apps/input/map_formats.hpp"
 #include "apps/input/training_frames.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/formatted.hpp"
@@ -203,7 +204,7 @@ TrainingStart prepare(const TrainJob& job, const InitializeOptions& initial, Seq
 TrainOutcome run_training(const Common& common, const TrainJob& job) {
   const InitializeOptions initial = initialize_options(job);
   initial.check();
-  check_extension(job.out, {".ply", ".splat"});
+  check_extension(job.out, map_extensions);
   const MadeFolders made = ensure_output_file(job.out);
   const MadeFolders made_for_report = ensure_output_if_given(job.report);
   SequenceViews views(job.sequences, job.sequence_options, job.every,
@@ -249,7 +250,7 @@ void add_train(CLI::App& app, Common& common) {
   add_number(command, "--voxel", job->voxel, {.least = 0.0, .most = 1000.0, .word = "off"},
              "thin the cloud to one point per voxel of this edge [m]; 0 or off: as it is");
   command->add_flag("--remove-outliers", job->remove_outliers, outliers_help);
-  command->add_option("--out", job->out, "map to write (PLY, or .splat)")->required();
+  command->add_option("--out", job->out, "map to write (.ply, .glb, .spz, .splat)")->required();
   add_number(command, "--every", job->every, {.least = 1}, "train on every Nth frame");
   command->add_option("--frames", job->frames, frames_help);
   command->add_option("--preset", job->preset, "default, or paper (the recipe of the paper's code)");

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -23,6 +22,12 @@
 #include "odosplat/io/foreign_format.hpp"
 #include "odosplat/io/text/text_words.hpp"
 #include "odosplat/splat/broken_rows.hpp"
+#include "odosplat/splat/format/gltf.hpp"
+#include "odosplat/splat/format/map_format.hpp"
+#include "odosplat/splat/format/packed_ply.hpp"
+#include "odosplat/splat/format/quantized.hpp"
+#include "odosplat/splat/format/sog.hpp"
+#include "odosplat/splat/format/spz.hpp"
 #include "odosplat/splat/map_header.hpp"
 #include "odosplat/splat/splat_file.hpp"
 
@@ -30,8 +35,6 @@ namespace odosplat {
 
 namespace {
 
-constexpr float full_logit = 20.0F;          // of an opacity that equals 1 in single precision (negative: 0)
-constexpr float zero_log_scale = -23.0F;     // 1e-10 m: stands for a size of 0
 constexpr float disc_log_scale = -13.8155F;  // 1e-6 m: the thickness of a disc
 
 const std::string element_name = "vertex";
@@ -93,7 +96,7 @@ std::vector<float> column_of(const Ply& ply, const Field& field) {
 
 /// A value as Gaussians keep it. Opacities of 0 and 1 and a size of 0 have infinite logarithms.
 float finite_value(const Field& field, float value) {
-  if (field.name == "opacity" && std::isinf(value)) return std::copysign(full_logit, value);
+  if (field.name == "opacity" && std::isinf(value)) return std::copysign(full_opacity_logit, value);
   if (field.name.starts_with("scale_") && std::isinf(value) && value < 0.0F) return zero_log_scale;
   return value;
 }
@@ -116,9 +119,6 @@ MapHeader header_of(const std::string& path, const std::vector<std::string>& com
 Gaussians gaussians_from_ply(const Ply& ply) {
   const std::string& path = ply.file;
   const PlyElement& vertex = ply.element(element_name);
-  std::vector<std::string> names;
-  for (const PlyProperty& property : vertex.properties) names.push_back(property.name);
-  refuse_packed_ply(path, names);
   const auto rest = static_cast<std::size_t>(
       std::count_if(vertex.properties.begin(), vertex.properties.end(),
                     [](const PlyProperty& property) { return same_word(property.name.substr(0, 7), "f_rest_"); }));
@@ -150,7 +150,7 @@ Gaussians gaussians_from_ply(const Ply& ply) {
 
 Map map_from_ply(const Ply& ply) {
   MapHeader header = header_of(ply.file, ply.comments);
-  return {gaussians_from_ply(ply), std::move(header)};
+  return {is_packed_ply(ply) ? gaussians_from_packed_ply(ply) : gaussians_from_ply(ply), std::move(header)};
 }
 
 // Refuses a map so far from the origin that single precision has spoilt its positions, whichever program wrote it.
@@ -165,15 +165,33 @@ Map near_origin(const std::string& name, Map map) {
   return map;
 }
 
-void write_splat(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
-  if (blend_order_from_lines(notes) == BlendOrder::distance) {
-    log_warning(path + ": .splat cannot store that these Gaussians are sorted by distance (train --blend-order depth)");
+/// One line of what a file of this format cannot hold. The header is not counted as lost where only programs other than
+/// this one cannot read it.
+void warn_of_losses(const std::string& path, MapFormat format, const Gaussians& gaussians,
+                    const std::vector<std::string>& notes) {
+  const bool is_by_distance = blend_order_from_lines(notes) == BlendOrder::distance;
+  std::vector<std::string> lost;
+  if (format == MapFormat::splat) {
+    if (is_by_distance) lost.emplace_back("that these Gaussians are sorted by distance (train --blend-order depth)");
+    if (gaussians.sh_degree > 0) {
+      lost.push_back("colour that depends on direction (harmonics of degree 1 to " +
+                     std::to_string(gaussians.sh_degree) + ")");
+    }
+    if (!notes.empty()) lost.emplace_back("the header (model of sigma, places, quality, settings)");
+  } else if (format == MapFormat::gltf && !is_by_distance) {
+    lost.emplace_back("for other programs that these Gaussians are sorted by depth: its only order is distance");
   }
-  if (gaussians.sh_degree > 0) {
-    log_warning(path + ": .splat stores no colour that depends on direction: harmonics of degree 1 to " +
-                std::to_string(gaussians.sh_degree) + " are left out");
-  }
-  write_file_atomically(path, splat_bytes(gaussians));
+  if (lost.empty()) return;
+  std::string line = lost[0];
+  for (std::size_t i = 1; i < lost.size(); ++i) line += (i + 1 < lost.size() ? ", " : " and ") + lost[i];
+  log_warning(path + ": " + format_name(format) + " cannot store " + line);
+}
+
+/// The comments of a header: the format's notes, then the lines of the map.
+std::vector<std::string> header_lines(const std::vector<std::string>& notes) {
+  std::vector<std::string> lines = format_notes;
+  lines.insert(lines.end(), notes.begin(), notes.end());
+  return lines;
 }
 
 /// Empty if it is no regular file or cannot be read.
@@ -181,54 +199,117 @@ std::string first_bytes(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return {};  // opening a FIFO would wait for its writer
   std::ifstream in(path, std::ios::binary);
-  std::string bytes(16, '\0');
+  std::string bytes(4096, '\0');
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(in.gcount()));
   return bytes;
 }
 
-}  // namespace
-
-bool is_splat_path(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".splat";
+/// The meta.json of a folder in which SOG is not packed into an archive; else the path itself.
+std::string file_of(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) return path;
+  const std::filesystem::path meta = std::filesystem::path(path) / "meta.json";
+  return std::filesystem::is_regular_file(meta, error) ? meta.string() : path;
 }
 
+/// Reads files beside `path`, and no others.
+ReadSibling siblings_of(const std::string& path) {
+  return [path](const std::string& name) {
+    const std::filesystem::path relative(name);
+    const bool leads_out = std::any_of(relative.begin(), relative.end(), [](const auto& part) { return part == ".."; });
+    if (name.empty() || relative.is_absolute() || leads_out || has_control_characters(name)) {
+      throw InputError(path, quoted_word(name), "must be a file in the folder of the map");
+    }
+    return read_file((std::filesystem::path(path).parent_path() / relative).string(), max_data_bytes);
+  };
+}
+
+Map map_from_bytes(const std::string& name, const std::string& bytes, MapFormat format, const ReadSibling& siblings) {
+  if (format == MapFormat::ply) return map_from_ply(parse_ply(name, bytes));
+  if (format == MapFormat::splat) return {parse_splat(name, bytes), {}};
+  ForeignMap map = format == MapFormat::spz    ? parse_spz(name, bytes)
+                   : format == MapFormat::gltf ? parse_gltf(name, bytes, siblings)
+                                               : parse_sog(name, bytes, siblings);
+  MapHeader header = header_of(name, map.lines);
+  return {std::move(map.gaussians), std::move(header)};
+}
+
+/// The format of the content, as read_map reads it. InputError as read_map.
+MapFormat required_format(const std::string& path, std::string_view bytes) {
+  const std::optional<MapFormat> format = format_of_content(path, bytes);
+  require_format_of_name(path, format);
+  if (!format) refuse_foreign_format(path, bytes);
+  return format.value_or(MapFormat::ply);  // whose reader says what is wrong
+}
+
+}  // namespace
+
+bool is_splat_path(const std::string& path) { return format_of_name(path) == MapFormat::splat; }
+
 bool is_map_file(const std::string& path) {
-  if (is_splat_path(path)) return true;
-  const std::string start = first_bytes(path);
-  const bool is_marked = start.starts_with(byte_order_mark);
-  if (!std::string_view(start).substr(is_marked ? byte_order_mark.size() : 0).starts_with("ply")) return false;
-  std::ifstream in(path, std::ios::binary);
-  for (const PlyHeaderElement& element : read_ply_header(path, in).elements) {
+  const std::string file = file_of(path);
+  const std::string start = first_bytes(file);
+  const std::optional<MapFormat> format = format_of_content(file, start);
+  if (format && format != MapFormat::ply) return true;
+  const std::optional<MapFormat> by_name = format_of_name(path);
+  if (!format)
+    return by_name && by_name != MapFormat::ply &&
+           !same_word(std::filesystem::path(path).filename().string(), "meta.json");
+  std::ifstream in(file, std::ios::binary);
+  for (const PlyHeaderElement& element : read_ply_header(file, in).elements) {
     if (!same_word(element.name, element_name)) continue;
-    return std::any_of(element.properties.begin(), element.properties.end(),
-                       [](const PlyHeaderProperty& property) { return same_word(property.name, "f_dc_0"); });
+    return std::any_of(element.properties.begin(), element.properties.end(), [](const PlyHeaderProperty& property) {
+      return same_word(property.name, "f_dc_0") || same_word(property.name, "packed_position");
+    });
   }
   return false;
 }
 
 Map read_map(const std::string& path) {
-  refuse_foreign_format(path, first_bytes(path));
-  return near_origin(path, is_splat_path(path) ? Map{parse_splat(path, read_file(path, max_data_bytes)), {}}
-                                               : map_from_ply(read_ply(path)));
+  const std::string file = file_of(path);
+  const MapFormat format = required_format(file, first_bytes(file));
+  warn_of_other_format(file, format);
+  return near_origin(file, format == MapFormat::ply
+                               ? map_from_ply(read_ply(file))
+                               : map_from_bytes(file, read_file(file, max_data_bytes), format, siblings_of(file)));
 }
 
 Map parse_map(const std::string& name, const std::string& bytes) {
-  refuse_foreign_format(name, bytes);
-  return near_origin(name,
-                     is_splat_path(name) ? Map{parse_splat(name, bytes), {}} : map_from_ply(parse_ply(name, bytes)));
+  return near_origin(name, map_from_bytes(name, bytes, required_format(name, bytes), [&name](const std::string& file) {
+                       throw InputError(name, quoted_word(file), "is another file, which is not in memory");
+                       return std::string();
+                     }));
 }
 
 MapHeader read_map_header(const std::string& path) {
-  const std::string start = first_bytes(path);
-  if (start.empty()) read_file(path, max_data_bytes);  // throws with the reason why it cannot be read
-  refuse_foreign_format(path, start);
-  if (is_splat_path(path)) return {};
-  std::ifstream file(path, std::ios::binary);
-  return header_of(path, read_ply_header(path, file).comments);
+  const std::string file = file_of(path);
+  const std::string start = first_bytes(file);
+  if (start.empty()) read_file(file, max_data_bytes);  // throws with the reason why it cannot be read
+  switch (required_format(file, start)) {
+    case MapFormat::splat:
+      return {};
+    case MapFormat::spz:
+      return header_of(file, spz_lines(file, read_file(file, max_data_bytes)));
+    case MapFormat::gltf:
+      return header_of(file, gltf_lines(file, read_file(file, max_data_bytes)));
+    case MapFormat::sog:
+      return header_of(file, sog_lines(file, read_file(file, max_data_bytes)));
+    case MapFormat::ply:
+      break;
+  }
+  std::ifstream in(file, std::ios::binary);
+  return header_of(file, read_ply_header(file, in).comments);
+}
+
+std::uintmax_t map_file_size(const std::string& path) {
+  const std::string file = file_of(path);
+  if (file == path) return std::filesystem::file_size(file);
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  }
+  return bytes;
 }
 
 void write_map(const std::string& path, const Map& map) { write_map(path, map.gaussians, map.header.notes); }
@@ -236,14 +317,26 @@ void write_map(const std::string& path, const Map& map) { write_map(path, map.ga
 void write_map(const std::string& path, const Gaussians& gaussians, const std::vector<std::string>& notes) {
   gaussians.check();
   if (gaussians.empty()) throw InputError(path, "there are no Gaussians to write");
-  if (is_splat_path(path)) {
-    write_splat(path, gaussians, notes);
-    return;
+  const MapFormat format = format_of_name(path).value_or(MapFormat::ply);
+  if (same_word(std::filesystem::path(path).extension().string(), ".gltf")) {
+    throw InputError(path, "glTF is written as one binary file, .glb");
+  }
+  warn_of_losses(path, format, gaussians, notes);
+  switch (format) {
+    case MapFormat::splat:
+      return write_file_atomically(path, splat_bytes(gaussians));
+    case MapFormat::spz:
+      return write_file_atomically(path, spz_bytes(path, gaussians, header_lines(notes)));
+    case MapFormat::gltf:
+      return write_file_atomically(path, glb_bytes(path, gaussians, header_lines(notes)));
+    case MapFormat::sog:
+      throw InputError(path, "SOG is read, but not written");
+    case MapFormat::ply:
+      break;
   }
   Ply ply;
   ply.file = path;
-  ply.comments = format_notes;
-  ply.comments.insert(ply.comments.end(), notes.begin(), notes.end());
+  ply.comments = header_lines(notes);
 
   PlyElement vertex;
   vertex.name = element_name;

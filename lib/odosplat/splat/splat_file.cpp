@@ -5,31 +5,19 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
 #include <vector>
 
 #include "odosplat/core/error.hpp"
 #include "odosplat/io/little_endian.hpp"
 #include "odosplat/splat/broken_rows.hpp"
+#include "odosplat/splat/format/quantized.hpp"
 
 namespace odosplat {
 namespace {
 
 constexpr std::size_t record = 32;
-constexpr float min_log_scale = -23.0F;  // 1e-10 m: stands for 0
-constexpr float max_log_scale = 80.0F;   // as float can hold it
-
-std::uint8_t byte_of(float value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F))); }
-
-float byte_at(const char* bytes) { return static_cast<float>(static_cast<std::uint8_t>(*bytes)); }
-
-float opacity_of(float logit) { return 1.0F / (1.0F + std::exp(-logit)); }
-
-float logit_of(float opacity_byte) {
-  const float opacity = std::clamp(opacity_byte, 0.25F, 254.75F) / 255.0F;
-  return std::log(opacity / (1.0F - opacity));
-}
+constexpr float max_log_scale = 80.0F;  // as float can hold it
 
 std::vector<std::size_t> largest_first(const Gaussians& gaussians) {
   std::vector<double> sizes(gaussians.size());  // logarithms, which do not overflow
@@ -60,13 +48,13 @@ Gaussians parse_splat(const std::string& name, const std::string& bytes) {
       const auto scale = load_little<float>(at + 12 + 4 * a);
       if (!std::isfinite(g.positions[3 * i + a])) broken.add(i, "its position is not finite");
       if (!(std::isfinite(scale) && scale >= 0.0F)) broken.add(i, "its scale is negative or not finite");
-      g.log_scales[3 * i + a] = std::max(std::log(scale), min_log_scale);
-      g.sh[3 * i + a] = (byte_at(at + 24 + a) / 255.0F - 0.5F) / sh_constant;
+      g.log_scales[3 * i + a] = std::max(std::log(scale), zero_log_scale);
+      g.sh[3 * i + a] = (byte_value(at[24 + a]) / 255.0F - 0.5F) / sh_constant;
     }
-    g.opacity_logits[i] = logit_of(byte_at(at + 27));
+    g.opacity_logits[i] = logit_of_opacity_byte(byte_value(at[27]));
     Eigen::Map<Eigen::Vector4f> rotation(&g.rotations[4 * i]);
     for (std::size_t a = 0; a < 4; ++a) {
-      rotation[static_cast<Eigen::Index>(a)] = (byte_at(at + 28 + a) - 128.0F) / 128.0F;
+      rotation[static_cast<Eigen::Index>(a)] = (byte_value(at[28 + a]) - 128.0F) / 128.0F;
     }
     if (!rotation.isZero(0.0F)) rotation.normalize();
   }
@@ -81,15 +69,15 @@ std::string splat_bytes(const Gaussians& gaussians) {
   for (const std::size_t i : largest_first(gaussians)) {
     for (std::size_t a = 0; a < 3; ++a) append_little(bytes, gaussians.positions[3 * i + a]);
     for (std::size_t a = 0; a < 3; ++a) {
-      append_little(bytes, std::exp(std::clamp(gaussians.log_scales[3 * i + a], min_log_scale, max_log_scale)));
+      append_little(bytes, std::exp(std::clamp(gaussians.log_scales[3 * i + a], zero_log_scale, max_log_scale)));
     }
     for (std::size_t c = 0; c < 3; ++c) {
-      append_little(bytes, byte_of(255.0F * (0.5F + sh_constant * gaussians.sh[stride * i + c])));
+      append_little(bytes, rounded_byte(255.0F * (0.5F + sh_constant * gaussians.sh[stride * i + c])));
     }
-    append_little(bytes, byte_of(255.0F * opacity_of(gaussians.opacity_logits[i])));
+    append_little(bytes, rounded_byte(255.0F * opacity_of_logit(gaussians.opacity_logits[i])));
     Eigen::Vector4f rotation = Eigen::Map<const Eigen::Vector4f>(&gaussians.rotations[4 * i]);
     rotation.stableNormalize();
-    for (const float value : rotation) append_little(bytes, byte_of(128.0F * value + 128.0F));
+    for (const float value : rotation) append_little(bytes, rounded_byte(128.0F * value + 128.0F));
   }
   return bytes;
 }
