@@ -19,6 +19,6 @@ void transforms(const std::string& bytes);
 void pcd(const std::string& bytes);
 void las(const std::string& bytes);
 void cloud_text(const std::string& bytes);
-void gaussians(const std::string& bytes);  // .splat and PLY; in gaussian_entries.cpp
+void gaussians(const std::string& bytes);  // maps in every format; in gaussian_entries.cpp
 
 }  // namespace odosplat::fuzz

@@ -383,16 +383,12 @@ TEST_F(MapFile, NamesMayBeInAnyCaseBehindAByteOrderMark) {
   EXPECT_EQ(read_map_header(path("m.ply")).rasterizer.order, BlendOrder::distance);
 }
 
-TEST_F(MapFile, FormatsThatAreNotReadAreNamed) {
-  write_text("m.spz", std::string("\x1f\x8b\x08\0", 4));
-  EXPECT_THAT(fault("m.spz"), HasSubstr("is a map in SPZ, which is not read: convert it to PLY first"));
-  write_text("m.sog", "PK\x03\x04");
-  EXPECT_THAT(fault("m.sog"), HasSubstr("is a map in SOG, which is not read: convert it to PLY first"));
+TEST_F(MapFile, APackedPlyIsRead) {
   write_text("m.compressed.ply",
              "ply\nformat ascii 1.0\nelement chunk 1\nproperty float min_x\nelement vertex 1\nproperty uint "
              "packed_position\nproperty uint packed_rotation\nend_header\n1\n2 3\n");
-  EXPECT_THAT(fault("m.compressed.ply"), HasSubstr("is a compressed PLY (SuperSplat), which is not read"));
-  EXPECT_FALSE(is_map_file(path("m.spz")));
+  EXPECT_TRUE(is_map_file(path("m.compressed.ply")));
+  EXPECT_THAT(fault("m.compressed.ply"), HasSubstr("packed_scale"));
 }
 
 TEST_F(MapFile, FaultsNameTheFile) {

@@ -169,16 +169,16 @@ Map near_origin(const std::string& name, Map map) {
 /// this one cannot read it.
 void warn_of_losses(const std::string& path, MapFormat format, const Gaussians& gaussians,
                     const std::vector<std::string>& notes) {
-  const bool is_by_distance = blend_order_from_lines(notes) == BlendOrder::distance;
   std::vector<std::string> lost;
   if (format == MapFormat::splat) {
-    if (is_by_distance) lost.emplace_back("that these Gaussians are sorted by distance (train --blend-order depth)");
+    if (blend_order_from_lines(notes) == BlendOrder::distance)
+      lost.emplace_back("that these Gaussians are sorted by distance (train --blend-order depth)");
     if (gaussians.sh_degree > 0) {
       lost.push_back("colour that depends on direction (harmonics of degree 1 to " +
                      std::to_string(gaussians.sh_degree) + ")");
     }
     if (!notes.empty()) lost.emplace_back("the header (model of sigma, places, quality, settings)");
-  } else if (format == MapFormat::gltf && !is_by_distance) {
+  } else if (format == MapFormat::gltf && blend_order_from_lines(notes) == BlendOrder::depth) {
     lost.emplace_back("for other programs that these Gaussians are sorted by depth: its only order is distance");
   }
   if (lost.empty()) return;

@@ -70,6 +70,7 @@ class Inflater {
 
 struct ZstdFree {
   void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+  void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
 };
 
 }  // namespace
@@ -98,6 +99,16 @@ std::string GzipStream::read(std::size_t n) {
                                                            : "is cut off or damaged: its gzip data cannot be read");
   }
   return bytes;
+}
+
+void GzipStream::finish() {
+  std::string rest;
+  do {
+    rest.clear();
+    state_->inflater.append(rest, piece);
+  } while (rest.size() == piece);
+  if (!state_->inflater.is_complete())
+    throw InputError(file_, "is cut off or damaged: its gzip data have no valid end");
 }
 
 std::string inflated(const std::string& file, const std::string& place, std::string_view bytes, std::size_t size) {
@@ -137,7 +148,11 @@ std::string zstd_decompressed(const std::string& file, const std::string& place,
 
 std::string zstd_compressed(std::string_view bytes) {
   std::string out(ZSTD_compressBound(bytes.size()), '\0');
-  const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), zstd_level);
+  const std::unique_ptr<ZSTD_CCtx, ZstdFree> context(ZSTD_createCCtx());
+  if (context == nullptr) throw std::bad_alloc();
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, zstd_level);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
+  const std::size_t size = ZSTD_compress2(context.get(), out.data(), out.size(), bytes.data(), bytes.size());
   if (ZSTD_isError(size) != 0U) throw std::runtime_error(std::string("zstd: ") + ZSTD_getErrorName(size));
   out.resize(size);
   return out;

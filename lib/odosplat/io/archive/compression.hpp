@@ -30,6 +30,8 @@ class GzipStream {
 
   /// The next n decompressed bytes. Memory grows with what is decompressed, not with n.
   std::string read(std::size_t n);
+  /// Skips what is left; throws unless the data are complete and have the checksum that they declare.
+  void finish();
 
  private:
   struct State;
@@ -44,7 +46,7 @@ std::string inflated(const std::string& file, const std::string& place, std::str
 std::string zstd_decompressed(const std::string& file, const std::string& place, std::string_view bytes,
                               std::size_t size);
 
-/// One zstd frame, the same bytes for the same input; its size is in the frame's header.
+/// One zstd frame with a checksum, the same bytes for the same input; its size is in the frame's header.
 std::string zstd_compressed(std::string_view bytes);
 
 /// CRC-32 as gzip and ZIP use it.

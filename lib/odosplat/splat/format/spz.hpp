@@ -30,8 +30,8 @@ ForeignMap parse_spz(const std::string& name, const std::string& bytes);
 /// Its lines alone, without the Gaussians.
 std::vector<std::string> spz_lines(const std::string& name, const std::string& bytes);
 
-/// A file of version 4 with `lines` in an extension. Positions are rounded to 2^-12 m, more finely if the map is smaller
-/// than 8 m and more coarsely if it is larger than 2 km; harmonics above degree 0 to 1/128 in -1..127/128; ln sizes to
+/// A file of version 4 with `lines` in an extension. Positions are rounded to 2^-12 m, more finely if no coordinate
+/// reaches 4 m, and more coarsely if one is above 2 km; harmonics above degree 0 to 1/128 in -1..127/128; ln sizes to
 /// 1/16 in -10..5.94. What is outside is clamped. InputError naming the file: a coordinate above 4e6 m, more Gaussians
 /// than fit into 32 bits.
 std::string spz_bytes(const std::string& name, Gaussians gaussians, const std::vector<std::string>& lines);

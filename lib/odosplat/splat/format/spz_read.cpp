@@ -76,6 +76,7 @@ std::pair<SpzHeader, Streams> read_gzip(const std::string& name, const std::stri
   require_plausible_size(name, data_size(header), bytes.size());
   const Widths widths = header.widths();
   for (std::size_t s = 0; s < streams.size(); ++s) streams[s] = gzip.read(header.count * widths[s]);
+  gzip.finish();
   return {header, std::move(streams)};
 }
 

@@ -16,14 +16,14 @@
 #include "odosplat/splat/format/spz.hpp"
 #include "odosplat/splat/format/spz_layout.hpp"
 #include "odosplat/splat/format/turned.hpp"
-#include "odosplat/splat/map.hpp"
+#include "odosplat/splat/map_header.hpp"
 
 namespace odosplat {
 namespace {
 
 constexpr int usual_fraction_bits = 12;  // what other writers use: steps of 0.24 mm
 constexpr int most_fraction_bits = 23;
-constexpr int extent_bits = 15;  // a map has at least 2^15 steps from the origin to its farthest coordinate
+constexpr int extent_bits = 15;  // a map has 2^14 steps at least from the origin to its farthest coordinate
 constexpr float largest_fixed = 8388607.0F;
 
 int fraction_bits_of(const std::string& name, const Gaussians& gaussians) {
@@ -98,7 +98,7 @@ std::string spz_bytes(const std::string& name, Gaussians gaussians, const std::v
   });
 
   const std::string text = joined_lines(lines);
-  const bool is_compensated = MapHeader::from_notes(lines).rasterizer.compensated;
+  const bool is_compensated = map_header_number(lines, "compensated").value_or(0.0) != 0.0;
   std::string bytes(spz::magic);
   append_little(bytes, spz::latest_version);
   append_little(bytes, static_cast<std::uint32_t>(gaussians.size()));
