@@ -46,6 +46,11 @@ TEST(WebpImage, ValuesAreExact) {
   }
 }
 
+TEST(WebpImage, ImagesOfOneColorAreRead) {
+  const cv::Mat4b gray(64, 64, cv::Vec4b(7, 7, 7, 255));
+  EXPECT_EQ(cv::norm(parse_lossless_webp("m.webp", encoded(gray, 101), 4096), gray, cv::NORM_INF), 0.0);
+}
+
 TEST(WebpImage, FaultsAreNamed) {
   cv::Mat image(20, 30, CV_8UC4);
   cv::RNG(5).fill(image, cv::RNG::UNIFORM, 1, 256);
@@ -54,7 +59,9 @@ TEST(WebpImage, FaultsAreNamed) {
   EXPECT_EQ(fault(good, 599), "m.webp: is 30x20, must have at most 599 pixels");
   EXPECT_THAT(fault(encoded(image, 50)), HasSubstr("m.webp: is a lossy WebP image, must be lossless"));
   EXPECT_EQ(fault("RIFF1234WEBQ"), "m.webp: is no WebP image");
+  testing::internal::CaptureStderr();
   for (std::size_t n = 0; n + 1 < good.size(); n += 5) EXPECT_NE(fault(good.substr(0, n)), "") << n;
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // OpenCV's own words
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ constexpr std::size_t riff_header = 12;   // "RIFF", size, "WEBP"
 constexpr std::size_t chunk_header = 8;   // name, size
 constexpr std::size_t lossless_head = 5;  // the mark 0x2f; 14 bits each of width - 1 and height - 1
 constexpr char lossless_mark = 0x2f;
+constexpr std::size_t least_decoded = 32;
 
 /// Width and height of the first lossless picture.
 cv::Size lossless_size(const std::string& name, const std::string& bytes) {
@@ -54,7 +55,14 @@ cv::Mat4b parse_lossless_webp(const std::string& name, const std::string& bytes,
   }
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) throw InputError(name, "is too large");
   const QuietOpenCv quiet;
-  const cv::Mat data(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
+  // For files below 32 bytes OpenCV prints an error of its own; what follows an image is not read.
+  std::string padded;
+  if (bytes.size() < least_decoded) {
+    padded = bytes;
+    padded.resize(least_decoded, '\0');
+  }
+  const std::string& source = padded.empty() ? bytes : padded;
+  const cv::Mat data(1, static_cast<int>(source.size()), CV_8U, const_cast<char*>(source.data()));
   cv::Mat image;
   try {
     image = cv::imdecode(data, cv::IMREAD_UNCHANGED);
