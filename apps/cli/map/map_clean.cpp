@@ -8,6 +8,7 @@
 #include "apps/command/interrupt.hpp"
 #include "apps/command/output.hpp"
 #include "apps/command/support.hpp"
+#include "apps/input/map_formats.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
@@ -40,7 +41,7 @@ std::vector<Floater> find(const Common& common, const CleanFlags& flags, const M
 
 void run(const Common& common, const CleanFlags& flags) {
   constexpr double usual_share = 0.05;
-  check_extension(flags.out, {".ply", ".splat"});
+  check_extension(flags.out, map_extensions);
   const MadeFolders made = ensure_output_file(flags.out);
   const Map map = read_map(flags.map);
   const std::vector<Floater> floaters = find(common, flags, map);
@@ -64,11 +65,11 @@ void add_map_clean(CLI::App& map, Common& common) {
                                   "a map without floaters: Gaussians that are almost transparent (opacity below 0.02), "
                                   "huge, isolated, or in free space");
   auto flags = std::make_shared<CleanFlags>();
-  command->add_option("MAP", flags->map, "map of Gaussians (PLY, .splat)")->required();
+  command->add_option("MAP", flags->map, std::string("map of Gaussians (") + map_formats + ")")->required();
   add_seen_by_flags(command, flags->seen_by,
                     "remove also what hangs before the surface that these views show (their depth images, else the "
                     "map's depth)");
-  command->add_option("--out", flags->out, "map to write (PLY, or .splat)")->required();
+  command->add_option("--out", flags->out, "map to write (.ply, .splat, .spz or .glb)")->required();
   command->final_callback([&common, flags] { run(common, *flags); });
 }
 

@@ -13,6 +13,7 @@
 #include "apps/command/number_flags.hpp"
 #include "apps/command/output.hpp"
 #include "apps/command/support.hpp"
+#include "apps/input/map_formats.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/formatted.hpp"
 #include "odosplat/core/progress.hpp"
@@ -100,7 +101,7 @@ void run(const Common& common, const CropFlags& flags) {
     throw InputError("crop", "needs --box or --seen-by, one of them");
   }
   if (!flags.box.empty()) box_of(flags);  // before a large map is read
-  check_extension(flags.out, {".ply", ".splat"});
+  check_extension(flags.out, map_extensions);
   const MadeFolders made = ensure_output_file(flags.out);
   const Map map = read_map(flags.map);
   std::string words;
@@ -122,7 +123,7 @@ void run(const Common& common, const CropFlags& flags) {
 void add_map_crop(CLI::App& map, Common& common) {
   CLI::App* command = add_command(map, common, "crop", "a part of a map: what lies in a box, or what views see");
   auto flags = std::make_shared<CropFlags>();
-  command->add_option("MAP", flags->map, "map of Gaussians (PLY, .splat)")->required();
+  command->add_option("MAP", flags->map, std::string("map of Gaussians (") + map_formats + ")")->required();
   CLI::Option* box =
       command->add_option("--box", flags->box,
                           "\"x0 y0 z0 x1 y1 z1\" [m]: keep the Gaussians whose centres lie in this box, on the axes of "
@@ -140,7 +141,7 @@ void add_map_crop(CLI::App& map, Common& common) {
   add_number(command, "--margin", flags->margin, {.least = 0.0, .most = 1000.0},
              "of --seen-by: keep also what lies within this distance [m] of what is seen")
       ->needs(seen_by);
-  command->add_option("--out", flags->out, "map to write (PLY, or .splat)")->required();
+  command->add_option("--out", flags->out, "map to write (.ply, .splat, .spz or .glb)")->required();
   command->final_callback([&common, flags] { run(common, *flags); });
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -14,6 +13,7 @@
 #include "apps/command/json_text.hpp"
 #include "apps/command/output.hpp"
 #include "apps/command/support.hpp"
+#include "apps/input/map_formats.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/formatted.hpp"
 #include "odosplat/core/upper_median.hpp"
@@ -122,7 +122,7 @@ MapInfo read_info(const std::string& path) {
   MapInfo info;
   info.gaussians = gaussians.size();
   info.sh_degree = gaussians.sh_degree;
-  info.bytes = std::filesystem::file_size(path);
+  info.bytes = map_file_size(path);
   add_shapes(gaussians, info);
   info.order = map.header.rasterizer.order;
   info.sigma = map.header.sigma;
@@ -237,7 +237,7 @@ void add_map_info(CLI::App& map, Common& common) {
   CLI::App* info =
       add_command(map, common, "info", "what a map holds, how it was trained and what it is worth, as its file says");
   auto flags = std::make_shared<MapInfoFlags>();
-  info->add_option("MAP", flags->map, "map of Gaussians (PLY, .splat)")->required();
+  info->add_option("MAP", flags->map, std::string("map of Gaussians (") + map_formats + ")")->required();
   info->add_flag("--settings", flags->settings, "print the training's settings too");
   info->add_option("--json", flags->json, "the same to write (JSON)");
   info->final_callback([flags] { run(*flags); });

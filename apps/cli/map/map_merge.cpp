@@ -8,6 +8,7 @@
 #include "apps/cli/train/stages.hpp"
 #include "apps/command/interrupt.hpp"
 #include "apps/command/output.hpp"
+#include "apps/input/map_formats.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/terminal_text.hpp"
@@ -25,7 +26,7 @@ struct MergeFlags {
 
 void run(const MergeFlags& flags) {
   if (flags.maps.size() < 2) throw InputError("MAP", "must be two maps or more");
-  check_extension(flags.out, {".ply", ".splat"});
+  check_extension(flags.out, map_extensions);
   const MadeFolders made = ensure_output_file(flags.out);
   MergedMap merged;
   std::vector<std::size_t> sizes;
@@ -65,11 +66,12 @@ void add_map_merge(CLI::App& map, Common& common) {
   CLI::App* command = add_command(
       map, common, "merge", "one map of several of the same frame: of a surface that two hold, the better is taken");
   auto flags = std::make_shared<MergeFlags>();
-  command->add_option("MAP", flags->maps, "maps of one world frame (PLY, .splat), two or more")->required();
+  command->add_option("MAP", flags->maps, std::string("maps of one world frame (") + map_formats + "), two or more")
+      ->required();
   command->add_flag("--force", flags->force,
                     "merge also maps whose surfaces lie more than 8 sigma apart, whose brightness differs by more than "
                     "0.25 (of 1), or that are blended differently");
-  command->add_option("--out", flags->out, "map to write (PLY, or .splat)")->required();
+  command->add_option("--out", flags->out, "map to write (.ply, .splat, .spz or .glb)")->required();
   command->final_callback([flags] { run(*flags); });
 }
 
