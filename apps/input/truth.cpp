@@ -116,4 +116,6 @@ JudgedTrajectory read_judged(const std::string& estimate, const std::string& est
   return {std::move(estimated.poses), std::move(truth.file.poses), span};
 }
 
+Trajectory read_true_poses(const TruthFlags& truth) { return read_truth(truth).file.poses; }
+
 }  // namespace odosplat::apps

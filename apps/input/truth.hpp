@@ -41,4 +41,7 @@ struct JudgedTrajectory {
 /// without a sequence, or for time stamps that require_comparable_stamps refuses.
 JudgedTrajectory read_judged(const std::string& estimate, const std::string& estimate_times, const TruthFlags& truth);
 
+/// The true trajectory alone, read in the same way; empty without --truth.
+Trajectory read_true_poses(const TruthFlags& truth);
+
 }  // namespace odosplat::apps

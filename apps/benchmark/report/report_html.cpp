@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include "apps/benchmark/report/report_formats.hpp"
+#include "apps/command/html_text.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
 namespace odosplat::apps {
@@ -43,48 +44,6 @@ figcaption { max-width: 48rem; }
   h2, h3 { break-after: avoid; }
 }
 )";
-
-std::string html_escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
-std::string base64(const std::string& bytes) {
-  static constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned triple = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      triple = triple << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k > bytes.size() ? '=' : digits[triple >> (18U - 6U * k) & 63U];
-    }
-  }
-  return text;
-}
 
 std::string label_text(const std::string& label) {
   return label.empty() ? "" : " <span class=\"label\">" + html_escaped(label) + "</span>";

@@ -146,7 +146,7 @@ void run_association(const Common& common, const FrameViewFlags& flags) {
 }  // namespace
 
 void add_view(CLI::App& app, Common& common) {
-  CLI::App* view = app.add_subcommand("view", "figures (PNG, JPEG, PDF, SVG) and films, without a screen");
+  CLI::App* view = app.add_subcommand("view", "figures (PNG, JPEG, PDF, SVG), films and web pages, without a screen");
   view->require_subcommand(1);
 
   auto map = std::make_shared<MapViewFlags>();
@@ -196,6 +196,7 @@ void add_view(CLI::App& app, Common& common) {
   command->final_callback([&common, association] { run_association(common, *association); });
 
   add_view_fly(view, common);
+  add_view_web(view, common);
 }
 
 }  // namespace odosplat::apps

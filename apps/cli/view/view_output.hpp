@@ -42,4 +42,7 @@ void save_picture(const ViewOutputFlags& flags, const cv::Mat3b& picture);
 /// `odosplat view fly`: a video of a flight through a map.
 void add_view_fly(CLI::App* view, Common& common);
 
+/// `odosplat view web`: a page for a browser.
+void add_view_web(CLI::App* view, Common& common);
+
 }  // namespace odosplat::apps

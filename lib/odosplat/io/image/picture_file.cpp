@@ -24,11 +24,11 @@ std::string ending(const std::string& path) {
   return text;
 }
 
-std::string encoded(const std::string& format, const cv::Mat3b& rgb) {
+std::string encoded(const std::string& format, const cv::Mat3b& rgb, const std::vector<int>& parameters = {}) {
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   std::vector<unsigned char> bytes;
-  cv::imencode(format, bgr, bytes);
+  cv::imencode(format, bgr, bytes, parameters);
   return {bytes.begin(), bytes.end()};
 }
 
@@ -124,6 +124,11 @@ void write_picture(const std::string& path, const cv::Mat3b& rgb) {
   if (rgb.empty()) throw InputError(path, "cannot be written: the picture is empty");
   const std::string name = ending(path);
   write_file_atomically(path, name == ".pdf" ? pdf_of(rgb) : name == ".svg" ? svg_of(rgb) : encoded(name, rgb));
+}
+
+std::string jpeg_bytes(const cv::Mat3b& rgb, int quality) {
+  if (rgb.empty()) throw InputError("picture", "is empty");
+  return encoded(".jpg", rgb, {cv::IMWRITE_JPEG_QUALITY, quality});
 }
 
 }  // namespace odosplat

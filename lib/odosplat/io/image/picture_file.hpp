@@ -20,4 +20,7 @@ void check_picture_name(const std::string& path);
 /// cannot be written.
 void write_picture(const std::string& path, const cv::Mat3b& rgb);
 
+/// The bytes of a JPEG file of the picture (R, G, B), for files that contain pictures. quality: 1..100.
+std::string jpeg_bytes(const cv::Mat3b& rgb, int quality);
+
 }  // namespace odosplat
