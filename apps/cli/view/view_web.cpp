@@ -240,14 +240,14 @@ void run(const WebFlags& flags) {
                {"images", json_of(images)},
                {"scale", colors_of_page()}};
   for (const PageRun& one : paths.runs) page.data["runs"].push_back(json_of_run(one, times, numbers));
-  page.map = packed.bytes;
-  page.numbers = numbers.bytes();
+  page.map = page_block(packed.bytes);
+  page.numbers = page_block(numbers.bytes());
   const std::string html = html_of(page);
   write_file_atomically(flags.out, html);
   std::size_t image_bytes = 0;
   for (const PageImage& image : images) image_bytes += image.jpeg.size();
   print("%s: %s\n", flags.out.c_str(), megabytes(html.size()).c_str());
-  print("map: %s, %s\n", words_of_map(page.data["map"]).c_str(), megabytes(packed.bytes.size() * 4 / 3).c_str());
+  print("map: %s, %s\n", words_of_map(page.data["map"]).c_str(), megabytes(page.map.size()).c_str());
   print("frames: %zu, with %zu images, %s; runs: %zu\n", times.size(), images.size(),
         megabytes(image_bytes * 4 / 3).c_str(), paths.runs.size());
 }

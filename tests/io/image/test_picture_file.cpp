@@ -50,6 +50,17 @@ std::string big_endian(std::size_t value) {
   return bytes;
 }
 
+TEST_F(PictureFile, JpegBytesDependOnTheQuality) {
+  const std::string fine = jpeg_bytes(picture_, 95);
+  EXPECT_THAT(fine, StartsWith("\xff\xd8\xff"));
+  EXPECT_LT(jpeg_bytes(picture_, 30).size(), fine.size());
+  const ColorImage read = parse_color("memory", fine);
+  ASSERT_EQ(read.size(), picture_.size());
+  EXPECT_NEAR(read(12, 20)[0], picture_(12, 20)[0] / 255.0, 0.03) << "red is the first channel";
+  EXPECT_NEAR(read(12, 20)[2], picture_(12, 20)[2] / 255.0, 0.03);
+  EXPECT_THROW(jpeg_bytes(cv::Mat3b(), 95), InputError);
+}
+
 TEST_F(PictureFile, EndingsSayTheFormatInAnyCase) {
   EXPECT_THAT(written("a.png"), StartsWith("\x89PNG"));
   EXPECT_THAT(written("a.PNG"), StartsWith("\x89PNG"));

@@ -92,8 +92,9 @@ class Browser:
         self.requests = []
         self.number = 0
         self.folder = tempfile.mkdtemp(prefix="odosplat-browser-")
+        self.display = None
         self.process = subprocess.Popen(self.command(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                        errors="replace", start_new_session=True)
+                                        errors="replace", start_new_session=True, env=self.environment())
         self.output = []
         self.reader = threading.Thread(target=self.read_output, daemon=True)
         self.reader.start()
@@ -103,6 +104,9 @@ class Browser:
         except BaseException:
             self.close()
             raise
+
+    def environment(self):
+        return dict(os.environ)
 
     def read_output(self):
         for line in self.process.stdout:
@@ -125,7 +129,7 @@ class Browser:
             message = json.loads(self.connection.receive())
             if message.get("id") == self.number:
                 if message.get("error"):
-                    raise OSError(f"{method}: {message}")
+                    raise OSError(f"{method}: {message}"[:1000])
                 return message.get("result", {})
             if "method" in message:
                 self.heard(message["method"], message.get("params", {}))
@@ -140,7 +144,7 @@ class Browser:
             if self.evaluate(expression):
                 return
             time.sleep(0.1)
-        raise TimeoutError(expression)
+        raise TimeoutError(expression[:200])
 
     def close(self):
         if getattr(self, "connection", None):
@@ -152,6 +156,9 @@ class Browser:
             if self.process.poll() is None:
                 os.killpg(self.process.pid, signal.SIGKILL)
                 self.process.wait()
+        if self.display:
+            self.display.terminate()
+            self.display.wait()
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def __enter__(self):
@@ -202,7 +209,7 @@ class Chromium(Browser):
     def evaluate(self, expression):
         answer = self.call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in answer:
-            raise OSError(f"{expression}: {answer['exceptionDetails']}")
+            raise OSError(f"{expression[:200]}: {answer['exceptionDetails']}"[:1000])
         return answer["result"].get("value")
 
     def screenshot(self):
@@ -222,6 +229,18 @@ class Firefox(Browser):
                               'user_pref("network.captive-portal-service.enabled", false);\n')
         return [self.program, "--headless", "--no-remote", "--profile", self.folder, "--remote-debugging-port", "0",
                 "about:blank"]
+
+    def environment(self):
+        """Without an X server Firefox has no WebGL, not even in software: a virtual one is started."""
+        variables = dict(os.environ)
+        if "DISPLAY" not in variables and shutil.which("Xvfb"):
+            read, write = os.pipe()
+            self.display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x1000x24"],
+                                            pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            os.close(write)
+            with os.fdopen(read) as number:
+                variables["DISPLAY"] = ":" + number.readline().strip()
+        return variables
 
     def connect(self):
         return WebSocket(self.address("WebDriver BiDi listening on ") + "/session", self.timeout)
@@ -247,7 +266,7 @@ class Firefox(Browser):
     def evaluate(self, expression):
         answer = self.call("script.evaluate", expression=expression, target={"context": self.context}, awaitPromise=True)
         if answer["type"] == "exception":
-            raise OSError(f"{expression}: {answer['exceptionDetails']['text']}")
+            raise OSError(f"{expression[:200]}: {answer['exceptionDetails']['text']}"[:1000])
         return answer["result"].get("value")
 
     def screenshot(self):

@@ -12,7 +12,6 @@
 namespace odosplat::apps {
 namespace {
 
-/// In zlib's format (RFC 1950), which browsers call deflate.
 std::string deflated(const std::string& bytes) {
   uLongf size = compressBound(bytes.size());
   std::string packed(size, '\0');
@@ -27,14 +26,16 @@ std::string deflated(const std::string& bytes) {
 std::string value_of(const WebPage& page, std::string_view name) {
   if (name == "title") return html_escaped(page.title);
   if (name == "data") return json_for_html(json_text(page.data, -1));
-  if (name == "map") return base64(deflated(page.map));
-  if (name == "numbers") return base64(deflated(page.numbers));
+  if (name == "map") return page.map;
+  if (name == "numbers") return page.numbers;
   const auto file = page_texts().find(name);
   if (file == page_texts().end()) throw std::logic_error("page.html names " + std::string(name));
   return std::string(file->second);
 }
 
 }  // namespace
+
+std::string page_block(const std::string& bytes) { return base64(deflated(bytes)); }
 
 std::string html_of(const WebPage& page) {
   std::string_view rest = page_texts().at("page.html");

@@ -16,12 +16,15 @@ const std::map<std::string_view, std::string_view>& page_texts();
 struct WebPage {
   std::string title;
   nlohmann::ordered_json data;
-  std::string map;      // PackedMap::bytes
-  std::string numbers;  // PageNumbers::bytes
+  std::string map;      // page_block of PackedMap::bytes
+  std::string numbers;  // page_block of PageNumbers::bytes
 };
 
+/// Bytes as the page holds them: compressed in zlib's format (RFC 1950), which browsers call deflate, in base64.
+std::string page_block(const std::string& bytes);
+
 /// One HTML file that needs nothing else. It is made of page.html, in which {{NAME}} stands for the file NAME, or for
-/// title, data, map or numbers (the last two compressed by zlib, in base64). Text and JSON are escaped: no name in them can end or begin an element.
+/// title, data, map or numbers. Text and JSON are escaped: no name in them can end or begin an element.
 std::string html_of(const WebPage& page);
 
 }  // namespace odosplat::apps

@@ -201,7 +201,7 @@ class Page {
     element('cut-row').hidden = state.mode === 'follow';
     if (data.times.length > 0) this.timeLine.show(state.frame);
     this.panel.writeFrame(state);
-    this.panel.writeLegend(this.states.way(state.color));
+    this.panel.writeLegend(this.states.way(state.color), state.paths);
     this.drawPlots();
     stage.changed();
     this.writeAddress();

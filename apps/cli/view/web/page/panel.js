@@ -60,10 +60,10 @@ class Panel {
     child(element('notes'), 'li', `Times count from ${data.start || '0'} s. Made by odosplat ${data.version}.`);
   }
 
-  writeLegend(way) {
+  writeLegend(way, shown) {
     const legend = element('legend');
     legend.textContent = '';
-    legend.hidden = this.data.runs.length === 0;
+    legend.hidden = !shown || (this.data.runs.length === 0 && !this.data.truth);
     const swatch = (color, words) => {
       const item = child(legend, 'span', undefined, 'swatch');
       child(item, 'i').style.background = color;
@@ -83,7 +83,7 @@ class Panel {
     } else {
       this.data.runs.forEach((run, index) => swatch(runColor(index), run.name));
     }
-    swatch('repeating-linear-gradient(90deg, #fff 0 4px, #000 4px 8px)', 'lost');
+    if (this.data.runs.length > 0) swatch('repeating-linear-gradient(90deg, #fff 0 4px, #000 4px 8px)', 'lost');
     if (this.data.truth) swatch('linear-gradient(#000 30%, #fff 30% 70%, #000 70%)', 'truth');
   }
 
@@ -100,7 +100,7 @@ class Panel {
     const {data, states} = this, frame = state.frame, values = element('values');
     values.textContent = '';
     if (data.times.length > 0) {
-      this.row(values, 'frame', `${frame} of 0 … ${data.times.length - 1}`);
+      this.row(values, 'frame', String(frame));
       this.row(values, 'time', `${data.times[frame].toFixed(3)} s`);
     }
     const run = data.runs[state.path];

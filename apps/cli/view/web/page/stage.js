@@ -162,14 +162,15 @@ class Stage {
     overlay.end();
   }
 
+  /* Of the frame; not those that the view is inside of. */
   drawCameras() {
     const size = 0.06 * this.extent.radius, {data, state, overlay} = this;
+    const draw = (pose, color) => {
+      if (pose && norm(sub(pose.t, overlay.view.centre)) > 2.5 * size) overlay.camera(pose, this.lens, size, color);
+    };
     const truth = data.truth && unalignedPose(this.alignment(), poseAt(data.truth.poses, state.frame));
-    if (truth) overlay.camera(truth, this.lens, size, '#000');
-    data.runs.forEach((run, index) => {
-      const pose = poseAt(run.poses, state.frame);
-      if (pose) overlay.camera(pose, this.lens, size, runColor(index));
-    });
+    draw(truth, '#000');
+    data.runs.forEach((run, index) => draw(poseAt(run.poses, state.frame), runColor(index)));
   }
 
   placePhoto(full, pixel) {
@@ -180,8 +181,8 @@ class Stage {
     const {x, y, width, height} = full.image, mix = this.state.mix;
     Object.assign(this.photo.style, {left: `${x / pixel}px`, top: `${y / pixel}px`, width: `${width / pixel}px`,
                                      height: `${height / pixel}px`, opacity: kind === 'blend' ? mix / 100 : 1,
-                                     clipPath: kind === 'swipe' ? `inset(0 0 0 ${mix}%)` : 'none'});
-    Object.assign(this.divider.style, {left: `${(x + width * mix / 100) / pixel}px`, top: `${y / pixel}px`,
+                                     clipPath: kind === 'swipe' ? `inset(0 0 0 ${100 - mix}%)` : 'none'});
+    Object.assign(this.divider.style, {left: `${(x + width * (1 - mix / 100)) / pixel}px`, top: `${y / pixel}px`,
                                        height: `${height / pixel}px`});
   }
 
@@ -189,7 +190,7 @@ class Stage {
   drag(x) {
     if (this.comparing() !== 'swipe') return false;
     const pixel = window.devicePixelRatio || 1, rect = this.layout(this.box.clientWidth * pixel, this.box.clientHeight * pixel).image;
-    this.state.mix = Math.round(limited((x * pixel - rect.x) / rect.width, 0, 1) * 100);
+    this.state.mix = Math.round(limited(1 - (x * pixel - rect.x) / rect.width, 0, 1) * 100);
     return true;
   }
 
