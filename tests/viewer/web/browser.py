@@ -202,6 +202,10 @@ class Chromium(Browser):
         self.call("Emulation.setEmulatedMedia",
                   features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
+    def preload(self, script):
+        """Runs before the scripts of every page that is opened from now on."""
+        self.call("Page.addScriptToEvaluateOnNewDocument", source=script)
+
     def open(self, url):
         self.call("Page.navigate", url=url)
         self.wait_until("document.readyState === 'complete'")
@@ -259,6 +263,9 @@ class Firefox(Browser):
     def resize(self, width, height, scale=1, dark=False, touch=False):
         self.call("browsingContext.setViewport", context=self.context, viewport={"width": width, "height": height},
                   devicePixelRatio=scale)
+
+    def preload(self, script):
+        self.call("script.addPreloadScript", functionDeclaration="() => {" + script + "}")
 
     def open(self, url):
         self.call("browsingContext.navigate", context=self.context, url=url, wait="complete")

@@ -23,6 +23,7 @@ class Page {
     const posed = data.runs.length > 0 || Boolean(data.truth);
     this.state = {frame: 0, mode: posed ? 'follow' : 'orbit', compare: 'rendering', mix: 50,
                   path: data.runs.length > 0 ? '0' : 'truth', color: this.states.way('').name, paths: true, cut: 100};
+    if (/mode=orbit/.test(location.hash) || !posed) this.state.cut = 70; /* so that one sees into a room from above */
     this.panel = new Panel(data, this.states);
     this.stage = new Stage(data, map, this.states, this.state);
     this.timeLine = new TimeLine(data, (frame, by) => this.chooseFrame(frame, by));
@@ -30,10 +31,8 @@ class Page {
     this.makePlots();
     this.listen();
     this.readAddress();
-    if (data.times.length > 0 && posed && this.stage.pose(this.state.frame)) {
-      this.stage.free.take(this.stage.pose(this.state.frame), 0.6 * this.stage.extent.radius);
-    }
-    if (!posed) this.stage.free.overview();
+    const pose = posed ? this.stage.pose(this.state.frame) : null;
+    if (pose && this.state.mode !== 'orbit') this.stage.free.take(pose, 0.5 * this.stage.extent.radius);
     this.update();
   }
 

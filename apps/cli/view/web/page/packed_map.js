@@ -38,6 +38,17 @@ class PackedMap {
     return result;
   }
 
+  /* How far from its centre each Gaussian is seen, at most [m]: alpha falls to 1/255 within 3.34 deviations. */
+  reaches() {
+    const result = new Float32Array(this.count);
+    for (let i = 0; i < this.count; ++i) {
+      let largest = -Infinity;
+      for (let c = 0; c < 3; ++c) largest = Math.max(largest, this.value(i, 3 + c, this.sizes[c * this.count + i] / 255));
+      result[i] = 3.34 * Math.exp(largest);
+    }
+    return result;
+  }
+
   /* Twelve numbers of Gaussian i: x y z, log2 of the opacity; quaternion x y z w; standard deviations [m], 0. */
   shape(i, to, at) {
     for (let c = 0; c < 3; ++c) {

@@ -79,7 +79,7 @@ class SplatRenderer {
     gl.bindBuffer(gl.ARRAY_BUFFER, this.order);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, order);
     this.drawn = order.length;
-    this.last = order;
+    this.last = order.slice();
   }
 
   uniform(name) {

@@ -24,7 +24,7 @@ class Stage {
     this.waiting = [];
     try {
       this.renderer = new SplatRenderer(this.canvas, map, data.map);
-      this.sorter = new Sorter(positions, data.map.order === 'distance', (order) => {
+      this.sorter = new Sorter(positions, map.reaches(), data.map.order === 'distance', (order) => {
         this.renderer.setOrder(order);
         this.changed(false);
         for (const done of this.waiting.splice(0)) done();
@@ -84,7 +84,7 @@ class Stage {
   /* To be called when anything has changed; moving: the view does, and will probably go on. */
   changed(moving = true) {
     document.documentElement.dataset.settled = '0';
-    if (moving) this.lastMoved = performance.now();
+    if (moving) this.moved = true; /* until the next tick, however late that comes */
     if (this.scheduled) return;
     this.scheduled = true;
     requestAnimationFrame((time) => this.tick(time));
@@ -93,8 +93,9 @@ class Stage {
   tick(time) {
     this.scheduled = false;
     const passed = time - (this.lastTick || time);
-    if (this.controls && this.controls.step(passed / 1000)) this.lastMoved = performance.now();
-    const moving = performance.now() - this.lastMoved < 250;
+    if (this.moved || (this.controls && this.controls.step(passed / 1000))) this.lastMoved = performance.now();
+    this.moved = false;
+    const moving = performance.now() - this.lastMoved < (this.motionScale < 0.9 ? 600 : 250);
     if (moving && this.wasMoving && passed > 0) this.adapt(passed);
     this.wasMoving = moving;
     this.lastTick = time;
@@ -108,7 +109,7 @@ class Stage {
 
   adapt(milliseconds) {
     this.frameTime = this.frameTime ? 0.8 * this.frameTime + 0.2 * milliseconds : milliseconds;
-    if (milliseconds > 50) this.motionScale *= limited(Math.sqrt(40 / milliseconds), 0.6, 1);
+    if (milliseconds > 50) this.motionScale *= limited(Math.sqrt(40 / milliseconds), 0.3, 1);
     if (milliseconds < 22) this.motionScale *= 1.06;
     this.motionScale = limited(this.motionScale, 0.2, 1);
   }
