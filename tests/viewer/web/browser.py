@@ -85,6 +85,7 @@ class Browser:
     """Common to both: the process, calls with answers, and the faults that the page reported."""
 
     program = ""
+    has_dark = True  # can show the page as if the user had asked for dark colours
 
     def __init__(self, timeout=120):
         self.timeout = timeout
@@ -222,6 +223,7 @@ class Chromium(Browser):
 
 class Firefox(Browser):
     program = "firefox-esr"
+    has_dark = False
 
     def command(self):
         with open(os.path.join(self.folder, "user.js"), "w", encoding="utf-8") as preferences:
@@ -261,6 +263,8 @@ class Firefox(Browser):
             self.requests.append(parameters["request"]["url"])
 
     def resize(self, width, height, scale=1, dark=False, touch=False):
+        if dark:
+            raise ValueError("Firefox shows its own colours")
         self.call("browsingContext.setViewport", context=self.context, viewport={"width": width, "height": height},
                   devicePixelRatio=scale)
 

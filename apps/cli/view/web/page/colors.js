@@ -51,7 +51,7 @@ function shortNumber(value) {
 function lengthText(metres) {
   if (!Number.isFinite(metres)) return '–';
   const unit = lengthUnit(Math.abs(metres));
-  return `${shortNumber(unit.factor * metres)} ${unit.name}`;
+  return `${shortNumber(unit.factor * metres)}\u00a0${unit.name}`;
 }
 
 const degreesText = (degrees) => (Number.isFinite(degrees) ? `${shortNumber(degrees)}°` : '–');

@@ -145,10 +145,11 @@ class StateStrip extends Plot {
     c.setTransform(pixel, 0, 0, pixel, 0, 0);
     const n = this.times.length;
     for (let f = 0; f < n; ++f) {
-      const from = this.x(f, area), to = f + 1 < n ? this.x(f + 1, area) : area.right;
+      /* On whole pixels, else the edges of the marks show. */
+      const [from, to] = [this.x(f, area), f + 1 < n ? this.x(f + 1, area) : area.right].map((x) => Math.round(x * pixel) / pixel);
       c.fillStyle = this.colorOf(f);
       const lost = this.nameOf(f).startsWith('lost');
-      c.fillRect(from, lost ? 9 : 3, Math.max(to - from, 1) + 0.3, lost ? 3 : 12);
+      c.fillRect(from, lost ? 9 : 3, Math.max(to - from, 1), lost ? 3 : 12);
     }
     c.fillStyle = getComputedStyle(document.documentElement).getPropertyValue('--ink');
     c.fillRect(this.x(frame, area) - 0.75, 0, 1.5, 18);

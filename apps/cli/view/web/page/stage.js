@@ -29,6 +29,7 @@ class Stage {
         this.changed(false);
         for (const done of this.waiting.splice(0)) done();
       });
+      this.canvas.addEventListener('webglcontextrestored', () => this.changed(false));
     } catch (error) {
       this.renderer = null;
       this.failure = error.message;

@@ -58,7 +58,7 @@ class RunStates {
     number('rotation error', 'rotation_error_deg', degreesText);
     number('sigma of position', 'sigma_m', lengthText);
     number('sigma of rotation', 'sigma_deg', degreesText);
-    number('map seen from here', 'confirmed', (p) => `${(100 * p).toFixed(1)} %`);
+    number('map seen from here', 'confirmed', (p) => `${(100 * p).toFixed(1)}\u00a0%`);
     number('keyframe', 'keyframe', (k) => (k ? 'yes' : 'no'));
     return lines;
   }
