@@ -78,6 +78,7 @@ void check_used(const WebFlags& flags) {
     if (!flags.truth.frames.empty()) throw InputError("--frames", "needs --sequence or --truth");
     if (!flags.truth.sequence.options.layout.empty()) throw InputError("--layout", "needs --sequence or --truth");
   }
+  if (flags.truth.sequence.path.empty() && flags.alignment != "none") throw InputError("--align", "needs --truth");
   if (flags.poses.empty() && !flags.times.empty()) throw InputError("--times", "needs --poses");
   if (flags.truth.sequence.path.empty() && !flags.truth.times.empty())
     throw InputError("--truth-times", "needs --truth");
@@ -263,8 +264,13 @@ void add_view_web(CLI::App* view, Common& common) {
       ->type_name("FILE|FOLDER");
   command->add_option("--times", flags->times, "times of --poses, one a line, for formats without times");
   add_truth_flags(command, flags->truth);
-  command->add_option("--sequence", flags->sequence, "sequence of the images, in any of the known layouts")
-      ->type_name("SEQ");
+  CLI::Option* sequence =
+      command->add_option("--sequence", flags->sequence, "sequence of the images, in any of the known layouts")
+          ->type_name("SEQ");
+  command->get_option("--frames")
+      ->description(std::string("of --sequence, and of a sequence as --truth: ") + frames_help);
+  command->get_option("--camera")
+      ->description("camera.yaml to use instead of the sequences' own; without --sequence, the camera of the paths");
   command->add_option(
       "--align", flags->alignment,
       "how estimates are aligned with the truth before errors are computed, as in eval: none, se3, sim3");
@@ -276,9 +282,11 @@ void add_view_web(CLI::App* view, Common& common) {
   add_number(command, "--sh-degree", flags->sh_degree, {.least = 0, .most = 3},
              "degree of the colours' spherical harmonics at most; the page says if it is reduced");
   add_number(command, "--images", flags->images, {.least = 0, .most = 2000},
-             "images of --sequence, evenly spread over the frames; 0: none");
+             "images of --sequence, evenly spread over the frames; 0: none")
+      ->needs(sequence);
   add_number(command, "--image-size", flags->image_size, {.least = 32, .most = 4096},
-             "longer side of the images [px] at most");
+             "longer side of the images [px] at most")
+      ->needs(sequence);
   command->final_callback([flags] { run(*flags); });
 }
 

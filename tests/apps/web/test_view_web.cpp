@@ -183,10 +183,13 @@ TEST_F(ViewWeb, SaysWhatIsWrong) {
   };
   EXPECT_THAT(fault({"--frames", "0:5"}), HasSubstr("--frames: needs --sequence or --truth"));
   EXPECT_THAT(fault({"--layout", "tum"}), HasSubstr("--layout: needs --sequence or --truth"));
+  EXPECT_THAT(fault({"--align", "se3"}), HasSubstr("--align: needs --truth"));
+  EXPECT_THAT(fault({"--images", "3"}), HasSubstr("--sequence"));
   EXPECT_THAT(fault({"--times", "t.txt"}), HasSubstr("--times: needs --poses"));
   EXPECT_THAT(fault({"--sequence", sequence_, "--frames", "30:40"}), HasSubstr("the sequence has 24"));
   EXPECT_THAT(fault({"--poses", folder_ / "none"}), HasSubstr("none"));
-  EXPECT_THAT(fault({"--poses", folder_ / "seq/groundtruth.txt", "--align", "best"}), HasSubstr("align"));
+  EXPECT_THAT(fault({"--poses", folder_ / "seq/groundtruth.txt", "--truth", sequence_, "--align", "best"}),
+              HasSubstr("align"));
   std::filesystem::create_directory(folder_ / "run");
   write_text(folder_ / "run/trajectory.txt", read_text(folder_ / "seq/groundtruth.txt"));
   write_text(folder_ / "run/status.csv", "time,status,in_map\n0,fine,1\n");
