@@ -16,6 +16,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/parallel.hpp"
+#include "odosplat/io/video/live_address.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -90,7 +91,8 @@ std::string config_file(const std::vector<std::string>& words) {
 
 /// The error for a word that no flag and no argument has taken.
 InputError unknown_word(const CLI::App& command, const std::string& word) {
-  if (!word.starts_with('-')) return InputError(place(command) + "takes no more arguments, there is " + word);
+  if (!word.starts_with('-'))
+    return InputError(place(command) + "takes no more arguments, there is " + shown_address(word));
   std::vector<std::string> flags;
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
@@ -102,17 +104,21 @@ InputError unknown_word(const CLI::App& command, const std::string& word) {
 /// Placeholder in the help for the value of each text flag, the same in all commands.
 const std::map<std::string, std::string>& value_words() {
   static const std::map<std::string, std::string> words{
-      {"align", "NAME"},       {"anchor", "on|off"},    {"blend-order", "NAME"}, {"cache", "FOLDER"},
-      {"camera", "FILE"},      {"cloud", "FILE"},       {"densify", "NAME"},     {"depth", "NAME"},
-      {"depth-noise", "NAME"}, {"depth-use", "NAME"},   {"exposure", "on|off"},  {"frames", "A:B"},
-      {"from", "FILE"},        {"guess", "TRANSFORM"},  {"job", "ID"},           {"json", "FILE"},
-      {"layout", "NAME"},      {"map", "FILE"},         {"mapping", "NAME"},     {"method", "NAME"},
-      {"methods", "NAME,..."}, {"out", "PATH"},         {"pairs", "FILE"},       {"places", "FILE"},
-      {"points", "FILE"},      {"poses", "FILE"},       {"preset", "NAME"},      {"relocalise", "on|off"},
-      {"report", "FILE"},      {"root", "FOLDER"},      {"scene", "NAME|FILE"},  {"sequences", "NAME,..."},
-      {"size", "WxH"},         {"start", "POSE"},       {"suite", "NAME|FILE"},  {"times", "FILE"},
-      {"truth", "FILE"},       {"truth-times", "FILE"}, {"walk", "NAME"},        {"what", "NAME,..."},
-      {"without-half", "SIDE"}, {"box", "BOX"},         {"seen-by", "SEQ|FILE"}, {"T", "POSE"}};
+      {"align", "NAME"},        {"anchor", "on|off"},      {"blend-order", "NAME"},
+      {"cache", "FOLDER"},      {"camera", "FILE"},        {"cloud", "FILE"},
+      {"densify", "NAME"},      {"depth", "NAME"},         {"depth-noise", "NAME"},
+      {"depth-use", "NAME"},    {"exposure", "on|off"},    {"frames", "A:B"},
+      {"from", "FILE"},         {"guess", "TRANSFORM"},    {"job", "ID"},
+      {"json", "FILE"},         {"layout", "NAME"},        {"map", "FILE"},
+      {"mapping", "NAME"},      {"method", "NAME"},        {"methods", "NAME,..."},
+      {"out", "PATH"},          {"pairs", "FILE"},         {"places", "FILE"},
+      {"points", "FILE"},       {"poses", "FILE"},         {"preset", "NAME"},
+      {"relocalise", "on|off"}, {"report", "FILE"},        {"root", "FOLDER"},
+      {"scene", "NAME|FILE"},   {"sequences", "NAME,..."}, {"size", "WxH"},
+      {"start", "POSE"},        {"stream", "WHERE"},       {"suite", "NAME|FILE"},
+      {"times", "FILE"},        {"truth", "FILE"},         {"truth-times", "FILE"},
+      {"walk", "NAME"},         {"what", "NAME,..."},      {"without-half", "SIDE"},
+      {"box", "BOX"},           {"seen-by", "SEQ|FILE"},   {"T", "POSE"}};
   return words;
 }
 

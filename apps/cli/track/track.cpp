@@ -4,44 +4,51 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <sstream>
+#include <string>
 
-#include "apps/cli/track/frame_reader.hpp"
-#include "apps/cli/track/playback.hpp"
+#include "apps/cli/track/live_frames.hpp"
+#include "apps/cli/track/pose_stream.hpp"
+#include "apps/cli/track/sequence_frames.hpp"
 #include "apps/cli/track/track_record.hpp"
+#include "apps/cli/track/track_run.hpp"
 #include "apps/command/interrupt.hpp"
 #include "apps/command/no_result.hpp"
 #include "apps/command/number_flags.hpp"
 #include "apps/command/output.hpp"
 #include "apps/input/places.hpp"
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
-#include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
 namespace odosplat::apps {
 namespace {
 
-SE3 start_pose(const TrackJob& job, const Sequence& sequence, const FrameRange& range) {
-  if (job.start != "truth") {
-    double v[7];
-    std::istringstream text(job.start);
-    for (double& value : v) {
-      if (!(text >> value))
-        throw InputError("--start", "must be truth, auto or \"tx ty tz qx qy qz qw\", is " + job.start);
-    }
-    if (std::string more; text >> more) throw InputError("--start", "has more than seven numbers: " + job.start);
-    const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-    try {
-      SE3 start(rotation_from_text(q), Eigen::Vector3d(v[0], v[1], v[2]));
-      if (!start.is_finite()) throw InputError("the position is not finite");
-      return start;
-    } catch (const InputError& e) {
-      throw InputError("--start", e.what());
-    }
+/// The pose that --start gives.
+SE3 given_start(const TrackJob& job) {
+  double v[7];
+  std::istringstream text(job.start);
+  for (double& value : v) {
+    if (!(text >> value))
+      throw InputError("--start", "must be truth, auto or \"tx ty tz qx qy qz qw\", is " + job.start);
   }
+  if (std::string more; text >> more) throw InputError("--start", "has more than seven numbers: " + job.start);
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  try {
+    const SE3 start(rotation_from_text(q), Eigen::Vector3d(v[0], v[1], v[2]));
+    if (!start.is_finite()) throw InputError("the position is not finite");
+    return start;
+  } catch (const InputError& e) {
+    throw InputError("--start", e.what());
+  }
+}
+
+SE3 start_pose(const TrackJob& job, const Sequence& sequence, const FrameRange& range) {
+  if (job.start != "truth" && !job.start.empty()) return given_start(job);
   for (std::size_t i = range.begin; i < range.end; ++i) {
     if (!sequence.T_world_camera(i)) continue;
     if (i > range.begin)
@@ -53,17 +60,10 @@ SE3 start_pose(const TrackJob& job, const Sequence& sequence, const FrameRange& 
                    "it has no true pose to start from; give --start auto, or --start \"tx ty tz qx qy qz qw\"");
 }
 
-/// Sets the frame's depth image in a sensor's view and returns a copy of the view, because a keyframe made later from
-/// this frame still needs its depth; null for maps.
-std::shared_ptr<SensorView> sensor_view_of(OpenedView& opened, const Sequence& sequence, std::size_t i) {
-  if (opened.sensor == nullptr) return nullptr;
-  opened.show_frame(sequence, i);
-  return std::make_shared<SensorView>(*opened.sensor);
-}
-
 /// The range without unreadable frames at its beginning, which are recorded as lost: the start pose belongs to the
 /// first image that is tracked. InputError if no frame can be read.
-FrameRange readable_range(const Sequence& sequence, FrameRange range, OpenedView& opened, TrackRecord& record) {
+FrameRange readable_range(const Sequence& sequence, FrameRange range, OpenedView& opened, TrackRecord& record,
+                          PoseStream* stream) {
   for (; range.begin < range.end; ++range.begin) {
     if (interrupted()) throw Interrupted();
     try {
@@ -71,124 +71,15 @@ FrameRange readable_range(const Sequence& sequence, FrameRange range, OpenedView
       sequence.gray(range.begin);
       return range;
     } catch (const InputError& e) {
-      record.add_unreadable(sequence, range.begin, e.what());
+      InputFrame frame = frame_of(sequence, range.begin);
+      frame.fault = e.what();
+      record.add_unreadable(frame);
+      if (stream != nullptr) stream->send(pose_line(frame, nullptr, std::nullopt));
     }
   }
   throw InputError("none of the " + std::to_string(record.unreadable()) +
                    " frames can be read: " + record.first_fault());
 }
-
-/// State of a run; shared by play() and play_in_real_time().
-class Run {
- public:
-  Run(const TrackJob& job, const Sequence& sequence, const FrameRange& range, OpenedView& opened, Odometry& odometry,
-      TrackRecord& record)
-      : job_(job),
-        sequence_(sequence),
-        range_(range),
-        opened_(opened),
-        odometry_(odometry),
-        record_(record),
-        reader_(sequence, range),
-        progress_("track", static_cast<long>(range.end - range.begin)) {}
-
-  /// Tracks every frame in order. False after Ctrl-C.
-  bool play() {
-    for (std::size_t i = range_.begin; i < range_.end; ++i) {
-      if (interrupted()) return false;
-      track(i);
-    }
-    progress_.finish();
-    return true;
-  }
-
-  /// Plays at the sequence's own rate: frames that are no longer the newest are dropped. False after Ctrl-C.
-  bool play_in_real_time() {
-    Playback playback(sequence_, range_);
-    while (const std::optional<std::size_t> i = playback.next([this] {
-      write_now_and_then();
-      return interrupted();
-    })) {
-      record_.drop(playback.dropped());
-      track(*i);
-    }
-    if (interrupted()) return false;
-    odometry_.finish();
-    progress_.finish();
-    return true;
-  }
-
-  /// Writes the results so far; finished: they are complete.
-  TrackOutcome write(bool finished) {
-    TrackOutcome outcome = record_.outcome(odometry_, cpu_seconds() - cpu_before_);
-    record_.write(job_, outcome, odometry_, opened_.device ? opened_.device->device().name : "none", finished);
-    return outcome;
-  }
-
- private:
-  void track(std::size_t i) {
-    TrackStatus status = TrackStatus::lost;
-    std::shared_ptr<SensorView> view;
-    if (const std::optional<GrayImage> image = read(i, view)) {
-      const TrackResult result = odometry_.track(*image, sequence_.time(i), view);
-      record_.add(sequence_, i, result);
-      status = result.status;
-    }
-    const OdometryStatistics s = odometry_.statistics();
-    if (!s.likely_cause.empty() && !warned_of_camera_) {
-      warned_of_camera_ = true;
-      log_warning(sequence_.name() + ": " + s.likely_cause + "; poses that this changes by centimetres are refused");
-    }
-    std::string words = to_string(status) + "  " + std::to_string(s.keyframes) + " keyframes  " +
-                        std::to_string(s.lost + static_cast<int>(record_.unreadable())) + " lost";
-    if (record_.dropped() > 0) words += "  " + std::to_string(record_.dropped()) + " dropped";
-    progress_.update(static_cast<long>(i - range_.begin) + 1, words);
-    write_now_and_then();
-  }
-
-  /// Reads a frame. An unreadable file loses only its own frame: it is recorded, and nothing is returned.
-  std::optional<GrayImage> read(std::size_t i, std::shared_ptr<SensorView>& view) {
-    try {
-      view = sensor_view_of(opened_, sequence_, i);
-      return reader_.take(i);
-    } catch (const InputError& e) {
-      record_.add_unreadable(sequence_, i, e.what());
-      return std::nullopt;
-    }
-  }
-
-  /// Writes intermediate results, so that a run that is killed loses only a few seconds. If writing takes long, it is
-  /// done more rarely.
-  void write_now_and_then() {
-    constexpr double interval = 5.0;
-    constexpr double share = 0.02;  // largest share of the time spent on writing
-    if (since_write_.seconds() < next_write_ || record_.tracked() == written_) return;
-    written_ = record_.tracked();
-    const Stopwatch watch;
-    try {
-      write(false);
-      next_write_ = std::max(interval, watch.seconds() / share);
-    } catch (const InputError& e) {  // for example a full disk, which may have space again later
-      log_warning(e.what());
-      next_write_ *= 4.0;
-    }
-    since_write_ = Stopwatch();
-  }
-
-  const TrackJob& job_;
-  const Sequence& sequence_;
-  const FrameRange range_;
-  OpenedView& opened_;
-  Odometry& odometry_;
-  TrackRecord& record_;
-  FrameReader reader_;
-  Progress progress_;
-  const double cpu_before_ = cpu_seconds();
-  Stopwatch since_write_;
-  double next_write_ = 5.0;  // [s] between two writes
-  std::size_t written_ = 0;  // number of tracked frames at the last write
-  bool warned_of_camera_ = false;
-};
 
 }  // namespace
 
@@ -196,17 +87,17 @@ OdometryOptions odometry_options(const TrackJob& job) {
   OdometryOptions options = odometry_options(method_preset(job.method), job.anchor);
   if (!job.depth_use.empty()) options.keyframe.window_points.depth_use = depth_use(job.depth_use);
   options.keyframe.selector.seed = job.seed;
-  options.background = job.realtime;
+  options.background = job.in_real_time();
   job.options.apply(options);
   return options;
 }
 
 std::unique_ptr<Relocalizer> make_relocalizer(const TrackJob& job, const Camera& camera, MapView& map, bool sensor) {
   if (sensor) {
-    if (job.start == "auto") throw InputError("--start", "auto needs a map, which method rgbd has not");
+    if (job.finds_start()) throw InputError("--start", "auto needs a map, which method rgbd has not");
     return nullptr;
   }
-  if (!job.relocalise && job.start != "auto") return nullptr;
+  if (!job.relocalise && !job.finds_start()) return nullptr;
   RelocalizerOptions options;
   job.options.apply(options);
   return std::make_unique<Relocalizer>(camera, map, places_of(job.map, job.places), options);
@@ -214,28 +105,28 @@ std::unique_ptr<Relocalizer> make_relocalizer(const TrackJob& job, const Camera&
 
 namespace {
 
-std::unique_ptr<Odometry> start_odometry(const TrackJob& job, const Sequence& sequence, const FrameRange& range,
-                                         const OpenedView& opened, Relocalizer* relocalizer) {
+/// T_world_camera_start: none if it is to be found.
+std::unique_ptr<Odometry> start_odometry(const TrackJob& job, const Camera& camera, const OpenedView& opened,
+                                         Relocalizer* relocalizer, const std::optional<SE3>& T_world_camera_start) {
   const OdometryOptions options = odometry_options(job);
   // The first rendering loads the device's programs and the first look-up renders all places. In real time this is done
   // in advance, because frames would be dropped meanwhile.
-  if (job.start == "auto") {
-    if (job.realtime) relocalizer->prepare();
-    return std::make_unique<Odometry>(sequence.camera(), *opened.view, options, *relocalizer);
+  if (!T_world_camera_start) {
+    if (job.in_real_time()) relocalizer->prepare();
+    return std::make_unique<Odometry>(camera, *opened.view, options, *relocalizer);
   }
-  const SE3 T_world_camera_start = start_pose(job, sequence, range);
-  if (job.realtime && opened.sensor == nullptr) {
-    opened.view->render(sequence.camera(), T_world_camera_start, {true, true});
+  if (job.in_real_time() && opened.sensor == nullptr) {
+    opened.view->render(camera, *T_world_camera_start, {true, true});
     if (relocalizer != nullptr) relocalizer->prepare();
   }
-  auto odometry = std::make_unique<Odometry>(sequence.camera(), *opened.view, options, T_world_camera_start);
+  auto odometry = std::make_unique<Odometry>(camera, *opened.view, options, *T_world_camera_start);
   odometry->set_relocalizer(relocalizer);
   return odometry;
 }
 
 /// Writes the results so far while an error is being passed on. A failure here is only logged, so that the first error
 /// is the one reported.
-void write_what_there_is(Run& run, const TrackRecord& record) {
+void write_what_there_is(TrackRun& run, const TrackRecord& record) {
   if (record.tracked() == 0) return;
   try {
     run.write(false);
@@ -244,35 +135,23 @@ void write_what_there_is(Run& run, const TrackRecord& record) {
   }
 }
 
-}  // namespace
-
-TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
-  const MadeFolders made = ensure_output_folder(job.out);
-  const Sequence sequence = open_sequence(job.sequence);
-  if (sequence.size() == 0) throw InputError(sequence.name(), "holds no images");
-  FrameRange range = job.frames.empty() ? FrameRange() : parse_frames(job.frames);
-  range.end = std::min(range.end, sequence.size());
-  if (range.begin >= range.end)
-    throw InputError("--frames", "is " + job.frames + ", the sequence has " + std::to_string(sequence.size()));
-  OpenedView opened = open_view(common, job.method, job.map, {job.depth_noise.model, job.seed});
-  const auto relocalizer = make_relocalizer(job, sequence.camera(), *opened.view, opened.sensor != nullptr);
-  if (relocalizer == nullptr && job.options.has("relocaliser")) {
-    log_warning("--set relocaliser.*: is not used, as nothing is looked up (--relocalise off, or method rgbd)");
-  }
-  TrackRecord record;
-  range = readable_range(sequence, range, opened, record);
-  const auto started = start_odometry(job, sequence, range, opened, relocalizer.get());
+/// The part of a run that recorded sequences and live sources share. relocalizer and start: as for start_odometry.
+TrackOutcome track_frames(const Common& common, const TrackJob& job, FrameSource& source, OpenedView& opened,
+                          Relocalizer* relocalizer, const std::optional<SE3>& T_world_camera_start, TrackRecord& record,
+                          PoseStream* stream) {
+  const auto started = start_odometry(job, source.camera(), opened, relocalizer, T_world_camera_start);
   const SavesWhenInterrupted saves;
-  Run run(job, sequence, range, opened, *started, record);
+  TrackRun run(job, source, *started, record, opened.device ? opened.device->device().name : "none", stream);
   bool played = false;
   try {
-    played = job.realtime ? run.play_in_real_time() : run.play();
+    played = run.play();
   } catch (...) {
     write_what_there_is(run, record);
     throw;
   }
   if (!played && record.tracked() == 0) throw Interrupted();  // keeps the results of an earlier run
-  TrackOutcome outcome = run.write(played);
+  if (stream != nullptr) stream->finish();
+  const TrackOutcome outcome = run.write(played);
   if (record.unreadable() > 0) {
     log_warning(std::to_string(record.unreadable()) + " of " + std::to_string(outcome.frames) +
                 " frames cannot be read and count as lost; status.csv has the reasons");
@@ -282,12 +161,102 @@ TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
   return outcome;
 }
 
+std::unique_ptr<Relocalizer> opened_relocalizer(const TrackJob& job, const Camera& camera, const OpenedView& opened) {
+  auto relocalizer = make_relocalizer(job, camera, *opened.view, opened.sensor != nullptr);
+  if (relocalizer == nullptr && job.options.has("relocaliser")) {
+    log_warning("--set relocaliser.*: is not used, as nothing is looked up (--relocalise off, or method rgbd)");
+  }
+  return relocalizer;
+}
+
+TrackOutcome track_recorded(const Common& common, const TrackJob& job, PoseStream* stream) {
+  const Sequence sequence = open_sequence(job.sequence);
+  if (sequence.size() == 0) throw InputError(sequence.name(), "holds no images");
+  FrameRange range = job.frames.empty() ? FrameRange() : parse_frames(job.frames);
+  range.end = std::min(range.end, sequence.size());
+  if (range.begin >= range.end)
+    throw InputError("--frames", "is " + job.frames + ", the sequence has " + std::to_string(sequence.size()));
+  OpenedView opened = open_view(common, job.method, job.map, {job.depth_noise.model, job.seed});
+  const auto relocalizer = opened_relocalizer(job, sequence.camera(), opened);
+  TrackRecord record;
+  range = readable_range(sequence, range, opened, record, stream);
+  std::optional<SE3> start;
+  if (!job.finds_start()) start = start_pose(job, sequence, range);
+  SequenceFrames frames(sequence, range, opened, job.realtime);
+  return track_frames(common, job, frames, opened, relocalizer.get(), start, record, stream);
+}
+
+TrackOutcome track_live(const Common& common, const TrackJob& job, PoseStream* stream) {
+  if (const std::string part = part_folder(job.out, 1); std::filesystem::exists(part)) {
+    throw InputError(part,
+                     "is there from an earlier run, whose parts would be mixed with this one's: take another --out");
+  }
+  std::optional<SE3> start;
+  if (!job.finds_start()) start = given_start(job);
+  // The source first: its faults are found at once, the map takes a while.
+  LiveFrames frames(job);
+  OpenedView opened = open_view(common, job.method, job.map);
+  const auto relocalizer = opened_relocalizer(job, frames.camera(), opened);
+  TrackRecord record;
+  return track_frames(common, job, frames, opened, relocalizer.get(), start, record, stream);
+}
+
+void print_outcome(const TrackJob& job, const TrackOutcome& o) {
+  std::string text = formatted("%s: %d of %d frames posed, %d lost, %d keyframes, %.1f ms a frame (95 %%: %.1f ms)\n",
+                               job.out.c_str(), o.posed, o.frames, o.lost, o.keyframes, o.median_ms, o.p95_ms);
+  if (job.in_real_time()) text += formatted("in real time: %d of %d frames dropped\n", o.dropped, o.dropped + o.frames);
+  if (job.is_live()) {
+    text += formatted("from arrival to pose: %.1f ms (95 %%: %.1f ms, most: %.1f ms)\n", o.latency_ms.median,
+                      o.latency_ms.p95, o.latency_ms.most);
+  }
+  if (job.stream != "-") {
+    print("%s", text.c_str());
+    return;
+  }
+  // Standard output has the poses.
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) log_info(line);
+}
+
+}  // namespace
+
+TrackOutcome track_sequence(const Common& common, const TrackJob& job) {
+  check_live_flags(job);
+  const MadeFolders made = ensure_output_folder(job.out);
+  std::optional<PoseStream> stream;
+  if (!job.stream.empty()) stream.emplace(job.stream);
+  PoseStream* const to = stream ? &*stream : nullptr;
+  return job.is_live() ? track_live(common, job, to) : track_recorded(common, job, to);
+}
+
+namespace {
+
+void add_live_flags(CLI::App* command, TrackJob& job) {
+  const LiveOptions usual;
+  command->add_option("--stream", job.stream,
+                      "also send a line of JSON per frame: - (standard output; results go to standard error) or "
+                      "udp://HOST:PORT; lines that its reader is too slow for are dropped");
+  add_number(command, "--reconnect", job.live.reconnect, {.least = 0.0, .most = 1e9, .word = "60"},
+             "a live source that closes or falls silent is opened again for so long [s]; 0: it has ended");
+  add_number(command, "--open-timeout", job.live.open_timeout,
+             {.least = 0.0, .most = 3600.0, .least_excluded = true, .word = "10"},
+             "wait so long for the first image of a live source [s]");
+  add_number(command, "--part-frames", job.live.part_frames, {.least = 1, .word = "18000"},
+             "results of a live source are put aside in folders part-000001, ... of about so many frames each");
+}
+
+}  // namespace
+
 void add_track(CLI::App& app, Common& common) {
-  CLI::App* command = add_command(app, common, "track", "localise a sequence's camera in a map");
+  CLI::App* command =
+      add_command(app, common, "track", "localise the camera of a sequence or of a live source in a map");
   auto job = std::make_shared<TrackJob>();
   auto anchor = std::make_shared<std::string>();
   auto relocalise = std::make_shared<std::string>("on");
-  add_sequence_flags(command, job->sequence);
+  add_sequence_flags(command, job->sequence)
+      ->description(
+          "sequence: a folder in one of the known layouts, or a video; or a live source, with --camera: /dev/video0, "
+          "an address (rtsp:// http:// udp:// tcp:// ...), - (a video stream on standard input), or a FIFO");
   add_map_flags(command, job->map);
   command->add_option("--method", job->method, method_names());
   command
@@ -295,8 +264,10 @@ void add_track(CLI::App& app, Common& common) {
                    "folder for trajectory.txt, trajectory_live.txt, status.csv, covariance.csv, report.json")
       ->required();
   command->add_option("--frames", job->frames, frames_help);
-  command->add_option("--start", job->start,
-                      "pose of the first image: truth, \"tx ty tz qx qy qz qw\" [m], or auto (it is looked up)");
+  command
+      ->add_option("--start", job->start,
+                   "pose of the first image: truth, \"tx ty tz qx qy qz qw\" [m], or auto (it is looked up)")
+      ->default_str("truth; live: auto");
   command->add_option("--relocalise", *relocalise, "look images up in the map when lost: on or off")
       ->check(CLI::IsMember({"on", "off"}));
   command->add_option("--places", job->places, places_help);
@@ -306,7 +277,8 @@ void add_track(CLI::App& app, Common& common) {
       ->check(CLI::IsMember({"on", "off"}));
   command->add_flag("--realtime", job->realtime,
                     "play at the sequence's rate: keyframes in the background, late frames are dropped (default: every "
-                    "frame, same bits every time)");
+                    "frame, same bits every time); live sources always are");
+  add_live_flags(command, *job);
   command->add_option("--depth-use", job->depth_use,
                       "how the window uses the map's depth: fixed, pose_aware, prior, pose_aware_prior, free or "
                       "interval (default: the method's)");
@@ -321,11 +293,7 @@ void add_track(CLI::App& app, Common& common) {
     if (!anchor->empty()) job->anchor = *anchor == "on";
     check_flags_of_method(job->method, job->map, job->depth_noise);
     const TrackOutcome o = track_sequence(common, *job);
-    print("%s: %d of %d frames posed, %d lost, %d keyframes, %.1f ms a frame (95 %%: %.1f ms)\n", job->out.c_str(),
-          o.posed, o.frames, o.lost, o.keyframes, o.median_ms, o.p95_ms);
-    if (job->realtime) {
-      print("in real time: %d of %d frames dropped\n", o.dropped, o.dropped + o.frames);
-    }
+    print_outcome(*job, o);
     if (o.posed == 0) {
       throw NoResult(
           job->out + ": none of " + std::to_string(o.frames) +

@@ -3,13 +3,12 @@
 #include "apps/cli/track/track_record.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <cstddef>
+#include <iterator>
 
 #include "apps/command/json_text.hpp"
 #include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
-#include "odosplat/eval/statistics.hpp"
-#include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/trajectory/trajectory_file.hpp"
 
 namespace odosplat::apps {
@@ -43,48 +42,69 @@ const char* reason_lost(const MapEvidence& evidence) {
 
 }  // namespace
 
-void TrackRecord::add(const Sequence& sequence, std::size_t i, const TrackResult& result) {
-  rows_.push_back({sequence.time(i), sequence.time_text(i), result, ""});
+OdometryResults results_of(const Odometry& odometry) {
+  return {odometry.trajectory(), odometry.keyframe_times(), odometry.statistics()};
 }
 
-void TrackRecord::add_unreadable(const Sequence& sequence, std::size_t i, const std::string& reason) {
+void TrackRecord::add(const InputFrame& frame, const TrackResult& result, std::optional<double> latency_ms) {
+  ++tracked_;
+  tracking_ms_.add(result.milliseconds);
+  if (latency_ms) latency_ms_.add(*latency_ms);
+  rows_.push_back({frame.time, frame.stamp, result, latency_ms, ""});
+}
+
+void TrackRecord::add_unreadable(const InputFrame& frame) {
   if (unreadable_++ == 0) {
-    first_fault_ = reason;
-    log_warning("frame " + std::to_string(i) + " is lost: " + reason);
+    first_fault_ = frame.fault;
+    log_warning("frame " + std::to_string(frame.number) + " is lost: " + frame.fault);
   }
-  rows_.push_back({sequence.time(i), sequence.time_text(i), {}, reason});
+  rows_.push_back({frame.time, frame.stamp, {}, std::nullopt, frame.fault});
 }
 
-TrackOutcome TrackRecord::outcome(const Odometry& odometry, double cpu_seconds) const {
-  TrackOutcome o;
-  o.trajectory = odometry.trajectory();
-  // The odometry stores times as numbers; the files repeat the input's time stamps as text.
+TrackRecord TrackRecord::take_out(std::size_t frames) {
+  const auto end = rows_.begin() + static_cast<std::ptrdiff_t>(std::min(frames, rows_.size()));
+  TrackRecord old;
+  old.rows_.assign(std::make_move_iterator(rows_.begin()), std::make_move_iterator(end));
+  rows_.erase(rows_.begin(), end);
+  return old;
+}
+
+/// The poses of the frames kept. The odometry stores times as numbers; the files repeat the input's stamps as text.
+Trajectory TrackRecord::stamped(const Trajectory& trajectory) const {
+  Trajectory kept;
+  kept.reserve(std::min(trajectory.size(), rows_.size()));
   std::size_t k = 0;
-  for (StampedPose& pose : o.trajectory) {
-    while (rows_[k].time != pose.time) ++k;
-    pose.time_text = rows_[k].stamp;
+  for (const StampedPose& pose : trajectory) {
+    while (k < rows_.size() && rows_[k].time < pose.time) ++k;
+    if (k == rows_.size()) break;
+    if (rows_[k].time == pose.time) kept.push_back({pose.time, pose.T_world_camera, rows_[k].stamp});
   }
-  const OdometryStatistics s = odometry.statistics();
+  return kept;
+}
+
+TrackOutcome TrackRecord::outcome(const OdometryResults& results, double cpu_seconds) const {
+  TrackOutcome o;
+  o.trajectory = stamped(results.trajectory);
+  const OdometryStatistics& s = results.statistics;
   o.frames = s.frames + static_cast<int>(unreadable_);
   o.dropped = dropped_;
   o.posed = s.posed;
   o.lost = s.lost + static_cast<int>(unreadable_);
   o.relocalisations = s.relocalisations;
   o.keyframes = s.keyframes;
-  std::vector<double> sorted;
-  for (const Row& row : rows_) {
-    if (row.reason.empty()) sorted.push_back(row.result.milliseconds);
-  }
-  std::sort(sorted.begin(), sorted.end());
-  o.median_ms = percentile(sorted, 50.0);
-  o.p95_ms = percentile(sorted, 95.0);
+  const std::vector<double> tracking = tracking_ms_.percentiles({50.0, 95.0});
+  o.median_ms = tracking[0];
+  o.p95_ms = tracking[1];
+  const std::vector<double> latency = latency_ms_.percentiles({50.0, 95.0, 99.0});
+  o.latency_ms = {latency[0], latency[1], latency[2], latency_ms_.most()};
   o.cpu_ms = 1000.0 * cpu_seconds / std::max(1, s.frames);
   return o;
 }
 
-void TrackRecord::write(const TrackJob& job, const TrackOutcome& o, const Odometry& odometry, const std::string& device,
-                        bool finished) const {
-  const OdometryStatistics s = odometry.statistics();
+nlohmann::ordered_json TrackRecord::report(const TrackJob& job, const OdometryResults& results,
+                                           const RunFacts& facts) const {
+  const TrackOutcome o = outcome(results, facts.cpu_seconds);
+  const OdometryStatistics& s = results.statistics;
   nlohmann::ordered_json stages = nlohmann::ordered_json::object();
   for (const StageTime& stage : s.stages) stages[stage.name] = stage.milliseconds;
   nlohmann::ordered_json report{{"method", job.method},
@@ -102,26 +122,43 @@ void TrackRecord::write(const TrackJob& job, const TrackOutcome& o, const Odomet
                                 {"cpu_ms_per_frame", o.cpu_ms},
                                 {"stages_ms", stages},
                                 {"peak_memory_mb", peak_memory_mb()},
-                                {"device", device},
+                                {"device", facts.device},
                                 {"seed", job.seed},
                                 {"version", ODOSPLAT_VERSION},
-                                {"finished", finished}};
+                                {"finished", facts.finished}};
   for (const auto& [name, value] : job.options.items()) report["options"][name] = std::stod(value);
-  if (job.realtime) report["realtime"] = {{"dropped", o.dropped}, {"prefetched", s.prefetched}};
+  if (job.in_real_time()) report["realtime"] = {{"dropped", o.dropped}, {"prefetched", s.prefetched}};
+  if (!facts.live.is_null()) {
+    report.update(facts.live);
+    report["dropped"] = o.dropped;
+    report["latency_ms"] = {{"median", o.latency_ms.median},
+                            {"p95", o.latency_ms.p95},
+                            {"p99", o.latency_ms.p99},
+                            {"max", o.latency_ms.most}};
+  }
+  if (!facts.stream.is_null()) report["stream"] = facts.stream;
+  return report;
+}
+
+void TrackRecord::write_tables(const std::string& folder, const OdometryResults& results, Durability durability) const {
   Trajectory live;
   for (const Row& row : rows_) {
     if (row.result.status != TrackStatus::lost) live.push_back({row.time, row.result.T_world_camera, row.stamp});
   }
-  const Durability durability = finished ? Durability::synced : Durability::fast;
-  write_trajectory(job.out + "/trajectory.txt", o.trajectory, durability);
-  write_trajectory(job.out + "/trajectory_live.txt", live, durability);
-  write_file_atomically(job.out + "/status.csv", status_table(odometry.keyframe_times()), durability);
-  write_file_atomically(job.out + "/covariance.csv", covariance_table(), durability);
-  write_file_atomically(job.out + "/report.json", json_text(report), durability);
+  write_trajectory(folder + "/trajectory.txt", stamped(results.trajectory), durability);
+  write_trajectory(folder + "/trajectory_live.txt", live, durability);
+  write_file_atomically(folder + "/status.csv", status_table(results.keyframe_times), durability);
+  write_file_atomically(folder + "/covariance.csv", covariance_table(), durability);
+}
+
+void TrackRecord::write(const TrackJob& job, const OdometryResults& results, const RunFacts& facts) const {
+  const Durability durability = facts.finished ? Durability::synced : Durability::fast;
+  write_tables(job.out, results, durability);
+  write_file_atomically(job.out + "/report.json", json_text(report(job, results, facts)), durability);
 }
 
 std::string TrackRecord::status_table(const std::vector<double>& keyframe_times) const {
-  std::string table = "time,status,keyframe,inlier_share,milliseconds,map_share,in_map,confirmed,reason\n";
+  std::string table = "time,status,keyframe,inlier_share,milliseconds,map_share,in_map,confirmed,reason,latency_ms\n";
   for (const Row& row : rows_) {
     const bool keyframe = std::binary_search(keyframe_times.begin(), keyframe_times.end(), row.time);
     const bool judged = row.result.evidence.verdict != Confirmation::none;
@@ -131,7 +168,8 @@ std::string TrackRecord::status_table(const std::vector<double>& keyframe_times)
         formatted(",%s,%d,%.4f,%.3f,%.4f,%d,", to_string(row.result.status).c_str(), keyframe ? 1 : 0,
                   row.result.inlier_share, row.result.milliseconds, row.result.map_share, row.result.in_map ? 1 : 0) +
         (judged ? formatted("%.4f,", row.result.evidence.probability) : ",") +
-        csv_field(unexplained ? reason_lost(row.result.evidence) : row.reason) + "\n";
+        csv_field(unexplained ? reason_lost(row.result.evidence) : row.reason) +
+        (row.latency_ms ? formatted(",%.3f\n", *row.latency_ms) : ",\n");
   }
   return table;
 }

@@ -48,10 +48,11 @@ Progress::~Progress() { finish(); }
 void Progress::update(long done, const std::string& detail) {
   if (!shown_) return;
   const auto now = Clock::now();
+  const bool counted = total_ != unknown;
   const std::optional<double> left = time_left_.update(done, std::chrono::duration<double>(now - start_).count());
   const double since = std::chrono::duration<double>(now - last_print_).count();
-  const bool last = done >= total_;
-  if (terminal_ ? (since >= 0.1 || last) : (done >= next_plain_ || since >= 30.0 || last)) {
+  const bool last = counted && done >= total_;
+  if (terminal_ ? (since >= 0.1 || last) : ((counted && done >= next_plain_) || since >= 30.0 || last)) {
     if (!terminal_) next_plain_ = done + std::max(1L, total_ / 10);
     last_print_ = now;
     print(done, left ? format_duration(*left) : "-:--", printable_line(detail));
@@ -59,8 +60,13 @@ void Progress::update(long done, const std::string& detail) {
 }
 
 void Progress::print(long done, const std::string& left, const std::string& detail) {
-  const std::string numbers = std::to_string(done) + "/" + std::to_string(total_) + "  left " + left;
-  if (terminal_) {
+  const std::string numbers =
+      std::to_string(done) + (total_ == unknown ? "" : "/" + std::to_string(total_) + "  left " + left);
+  if (terminal_ && total_ == unknown) {
+    const std::string line = what_ + " " + numbers + "  " + detail;
+    std::fprintf(stderr, "\r\033[K%s", cut_to_columns(line, terminal_columns(STDERR_FILENO) - 1).c_str());
+    line_open_ = true;
+  } else if (terminal_) {
     // The last column stays free: filling it would make the terminal move to the next line.
     const int columns = terminal_columns(STDERR_FILENO) - 1;
     const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 1.0;

@@ -29,7 +29,9 @@ class TimeLeft {
 /// thread safe.
 class Progress {
  public:
-  /// what: a word or two ("train"). total >= 0 steps; the time left follows from the steps after the first update.
+  static constexpr long unknown = -1;
+  /// what: a word or two ("train"). total: number of steps, or `unknown`: neither bar nor time left is shown, and a plain
+  /// line every 30 s. The time left follows from the steps after the first update.
   Progress(const std::string& what, long total);
   /// Ends the line; also done by the destructor.
   ~Progress();

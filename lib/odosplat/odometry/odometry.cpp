@@ -318,13 +318,6 @@ void Odometry::render_ahead(const TrackedFrame& tracked) {
   rendered_ahead_ = true;
 }
 
-std::vector<double> Odometry::keyframe_times() const {
-  std::vector<double> times;
-  times.reserve(static_cast<std::size_t>(record_.keyframes()));
-  for (int k = 0; k < record_.keyframes(); ++k) times.push_back(record_.keyframe_time(k));
-  return times;
-}
-
 OdometryStatistics Odometry::statistics() const {
   OdometryStatistics all = counts_;
   all.stages = stages_;

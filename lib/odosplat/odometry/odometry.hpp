@@ -150,7 +150,11 @@ class Odometry {
   Trajectory trajectory() const { return record_.compose(); }
 
   /// Times [s] of the images that have become keyframes, in order.
-  std::vector<double> keyframe_times() const;
+  std::vector<double> keyframe_times() const { return record_.keyframe_times(); }
+
+  /// Takes the images before that time [s] out of trajectory(), and old keyframes out of keyframe_times(), so that the
+  /// memory of a run of days is bounded. Tracking is not changed by it.
+  void forget(double before) { record_.forget(before); }
 
   OdometryStatistics statistics() const;
   /// With options.background only after finish().

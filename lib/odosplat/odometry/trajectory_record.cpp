@@ -16,7 +16,7 @@ std::vector<TrajectoryRecord::Frame>::iterator TrajectoryRecord::frame_at(double
 }
 
 int TrajectoryRecord::add_keyframe(double time, const SE3& T_world_camera, bool found_again) {
-  const int id = static_cast<int>(keyframes_.size());
+  const int id = first_ + static_cast<int>(keyframes_.size());
   Keyframe keyframe{time, T_world_camera, -1, {}};
   // The frame is assigned to its own keyframe, so that its pose is the keyframe's. It is the newest frame, or a few
   // frames old if the back end was slow.
@@ -31,7 +31,7 @@ int TrajectoryRecord::add_keyframe(double time, const SE3& T_world_camera, bool 
     }
     bool lost_between = found_again || at->found_again;
     for (auto earlier = at; !lost_between && earlier != frames_.begin(); --earlier) {
-      if (earlier->time <= keyframes_[static_cast<std::size_t>(previous)].time) break;
+      if (earlier->time <= keyframe_time(previous)) break;
       lost_between = earlier->found_again;
     }
     if (!lost_between) {
@@ -52,7 +52,25 @@ void TrajectoryRecord::withdraw(double time) {
 }
 
 void TrajectoryRecord::move_keyframe(int keyframe, const SE3& T_world_camera) {
-  keyframes_[static_cast<std::size_t>(keyframe)].T_world_camera = T_world_camera;
+  // A keyframe that is forgotten has no frames, so that its pose does not matter.
+  if (keyframe >= first_) keyframes_[static_cast<std::size_t>(keyframe - first_)].T_world_camera = T_world_camera;
+}
+
+void TrajectoryRecord::forget(double before) {
+  constexpr int newest = 100;
+  frames_.erase(frames_.begin(), frame_at(before));
+  int needed = first_ + static_cast<int>(keyframes_.size()) - newest;
+  for (const Frame& frame : frames_) needed = std::min(needed, frame.keyframe);
+  if (needed <= first_) return;
+  keyframes_.erase(keyframes_.begin(), keyframes_.begin() + (needed - first_));
+  first_ = needed;
+}
+
+std::vector<double> TrajectoryRecord::keyframe_times() const {
+  std::vector<double> times;
+  times.reserve(keyframes_.size());
+  for (const Keyframe& keyframe : keyframes_) times.push_back(keyframe.time);
+  return times;
 }
 
 Trajectory TrajectoryRecord::compose() const {
@@ -60,16 +78,16 @@ Trajectory TrajectoryRecord::compose() const {
   std::vector<int> next(keyframes_.size(), -1);
   for (std::size_t id = 0; id < keyframes_.size(); ++id) {
     const int previous = keyframes_[id].previous;
-    if (previous >= 0) next[static_cast<std::size_t>(previous)] = static_cast<int>(id);
+    if (previous >= first_) next[static_cast<std::size_t>(previous - first_)] = first_ + static_cast<int>(id);
   }
   Trajectory trajectory;
   trajectory.reserve(frames_.size());
   for (const Frame& frame : frames_) {
-    const Keyframe& host = keyframes_[static_cast<std::size_t>(frame.keyframe)];
+    const Keyframe& host = at(frame.keyframe);
     SE3 T_world_camera = host.T_world_camera * frame.T_keyframe_camera;
-    const int far = next[static_cast<std::size_t>(frame.keyframe)];
+    const int far = next[static_cast<std::size_t>(frame.keyframe - first_)];
     if (far >= 0) {
-      const Keyframe& end = keyframes_[static_cast<std::size_t>(far)];
+      const Keyframe& end = at(far);
       const double share = (frame.time - host.time) / (end.time - host.time);
       // The correction is a motion in the camera's own frame: applied in the world's frame, a small rotation would move
       // the camera about the world's origin.

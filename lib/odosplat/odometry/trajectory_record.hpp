@@ -29,9 +29,14 @@ class TrajectoryRecord {
 
   void move_keyframe(int keyframe, const SE3& T_world_camera);
 
+  /// Forgets all frames before that time [s], which bounds the memory of a long run, and keyframes that no remaining
+  /// frame belongs to, except for the newest 100. Keyframes that are asked for later must be among those.
+  void forget(double before);
+
   /// When the keyframe's image was taken [s].
-  double keyframe_time(int keyframe) const { return keyframes_[static_cast<std::size_t>(keyframe)].time; }
-  int keyframes() const { return static_cast<int>(keyframes_.size()); }
+  double keyframe_time(int keyframe) const { return at(keyframe).time; }
+  /// Times [s] of the keyframes that are not forgotten, in order of add_keyframe.
+  std::vector<double> keyframe_times() const;
 
   /// Every frame's pose relative to its keyframe, composed with the keyframe's latest pose. Where the next keyframe's
   /// pose is not where tracking had put it, the difference is spread over the frames between the two, so that the path
@@ -54,7 +59,9 @@ class TrajectoryRecord {
 
   /// The first frame that is not before `time`.
   std::vector<Frame>::iterator frame_at(double time);
+  const Keyframe& at(int keyframe) const { return keyframes_[static_cast<std::size_t>(keyframe - first_)]; }
 
+  int first_ = 0;  // number of the first keyframe that is not forgotten
   std::vector<Keyframe> keyframes_;
   std::vector<Frame> frames_;
 };

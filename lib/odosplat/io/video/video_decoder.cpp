@@ -3,48 +3,23 @@
 #include "odosplat/io/video/video_decoder.hpp"
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/display.h>
 #include <libavutil/log.h>
-#include <libswscale/swscale.h>
 }
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <string_view>
 #include <vector>
 
 #include "odosplat/core/error.hpp"
-#include "odosplat/core/formatted.hpp"
+#include "odosplat/io/video/ffmpeg_parts.hpp"
 
 namespace odosplat {
 namespace {
 
-template <auto free_it>
-struct Free {
-  template <typename T>
-  void operator()(T* pointer) const {
-    free_it(&pointer);
-  }
-};
-struct FreeScaler {
-  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
-};
-
-using Format = std::unique_ptr<AVFormatContext, Free<avformat_close_input>>;
-using Codec = std::unique_ptr<AVCodecContext, Free<avcodec_free_context>>;
-using Packet = std::unique_ptr<AVPacket, Free<av_packet_free>>;
-using Frame = std::unique_ptr<AVFrame, Free<av_frame_free>>;
-using Scaler = std::unique_ptr<SwsContext, FreeScaler>;
-
-// FFmpeg's names of the formats that consist of a single file.
-constexpr const char* single_files =
-    "mov,matroska,avi,mpegts,mpeg,mpegvideo,m4v,ogg,flv,asf,mxf,nut,dv,ivf,h261,h263,h264,hevc,av1,obu,vc1,mjpeg,"
-    "mjpeg_2000,gif,apng";
+using namespace ffmpeg;
 
 [[noreturn]] void no_video(const std::string& path) { throw InputError(path, "is not a video that can be read"); }
 
@@ -78,30 +53,6 @@ bool holds_stamps(const std::string& path) {
   return false;
 }
 
-// The 3x3 display matrix in 16.16 and 2.30 fixed point; null if there is none.
-const std::int32_t* display_matrix(const AVStream& stream) {
-#if LIBAVFORMAT_VERSION_MAJOR >= 61
-  const AVPacketSideData* data = av_packet_side_data_get(
-      stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
-  return data == nullptr ? nullptr : reinterpret_cast<const std::int32_t*>(data->data);
-#else
-  return reinterpret_cast<const std::int32_t*>(av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
-#endif
-}
-
-int quarters_of(const std::string& path, const AVStream& stream) {
-  const std::int32_t* m = display_matrix(stream);
-  if (m == nullptr) return 0;
-  const double determinant = static_cast<double>(m[0]) * m[4] - static_cast<double>(m[1]) * m[3];
-  if (determinant < 0.0) throw InputError(path, "is marked to be shown mirrored, which is not supported");
-  const double clockwise = -av_display_rotation_get(m);
-  const double quarters = std::round(clockwise / 90.0);
-  if (!(std::abs(clockwise - 90.0 * quarters) < 0.1)) {
-    throw InputError(path, formatted("is to be shown turned by %.1f degrees, which is no multiple of 90", clockwise));
-  }
-  return static_cast<int>(quarters + 4.0) % 4;
-}
-
 }  // namespace
 
 struct VideoDecoder::State {
@@ -112,7 +63,7 @@ struct VideoDecoder::State {
   int quarters = 0;
   Packet packet{av_packet_alloc()};
   Frame frame{av_frame_alloc()};
-  Scaler scaler;
+  RgbConverter converter;
   // Declared by the container: number of images by its index (0: no index) and by its header (AVI: including entries
   // that repeat an image), and its duration [s].
   long indexed = 0;
@@ -201,7 +152,7 @@ VideoDecoder::VideoDecoder(const std::string& path) : state_(std::make_unique<St
     if (static_cast<int>(i) != s.stream) s.format->streams[i]->discard = AVDISCARD_ALL;
   }
   s.note_promises(indexed);
-  s.quarters = quarters_of(path, s.video());
+  s.quarters = quarters_shown(path, s.video());
   s.codec.reset(avcodec_alloc_context3(decoder));
   if (s.codec == nullptr || avcodec_parameters_to_context(s.codec.get(), s.video().codecpar) < 0) no_video(path);
   s.codec->pkt_timebase = s.video().time_base;
@@ -269,36 +220,7 @@ cv::Size VideoDecoder::size() const {
 }
 
 cv::Mat3b VideoDecoder::image() const {
-  State& s = *state_;
-  const AVFrame& frame = *s.frame;
-  s.scaler.reset(sws_getCachedContext(
-      s.scaler.release(), frame.width, frame.height, static_cast<AVPixelFormat>(frame.format), frame.width,
-      frame.height, AV_PIX_FMT_RGB24, SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT, nullptr,
-      nullptr, nullptr));
-  if (s.scaler == nullptr) throw InputError(s.path, "its pixel format cannot be converted to R, G, B");
-  int* inverse = nullptr;
-  int* table = nullptr;
-  int full_range = 0;
-  int rgb_range = 0;
-  int brightness = 0;
-  int contrast = 0;
-  int saturation = 0;
-  if (sws_getColorspaceDetails(s.scaler.get(), &inverse, &full_range, &table, &rgb_range, &brightness, &contrast,
-                               &saturation) >= 0) {
-    if (frame.color_range == AVCOL_RANGE_JPEG) full_range = 1;
-    sws_setColorspaceDetails(s.scaler.get(), sws_getCoefficients(frame.colorspace), full_range, table, rgb_range,
-                             brightness, contrast, saturation);
-  }
-  cv::Mat3b stored(frame.height, frame.width);
-  std::uint8_t* const planes[4] = {stored.data, nullptr, nullptr, nullptr};
-  const int steps[4] = {static_cast<int>(stored.step), 0, 0, 0};
-  if (sws_scale(s.scaler.get(), frame.data, frame.linesize, 0, frame.height, planes, steps) != frame.height) {
-    throw InputError(s.path, "a frame cannot be converted to R, G, B");
-  }
-  if (s.quarters == 0) return stored;
-  cv::Mat3b turned;
-  cv::rotate(stored, turned, s.quarters - 1);  // codes 0, 1, 2: 90, 180, 270 degrees clockwise
-  return turned;
+  return state_->converter.image(state_->path, *state_->frame, state_->quarters);
 }
 
 }  // namespace odosplat

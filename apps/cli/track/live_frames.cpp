@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The odosplat authors
+#include "apps/cli/track/live_frames.hpp"
+
+#include <chrono>
+
+#include "apps/command/interrupt.hpp"
+#include "odosplat/core/error.hpp"
+#include "odosplat/core/log.hpp"
+#include "odosplat/io/camera/camera_file.hpp"
+#include "odosplat/io/image/size_text.hpp"
+#include "odosplat/io/video/live_address.hpp"
+
+namespace odosplat::apps {
+namespace {
+
+LiveOptions options_of(const TrackJob& job, const CameraFile& camera) {
+  LiveOptions options;
+  options.size = {camera.camera.width, camera.camera.height};
+  options.max_pixels = job.sequence.options.max_image_pixels;
+  options.reconnect = job.live.reconnect.value_or(options.reconnect);
+  options.open_timeout = job.live.open_timeout.value_or(options.open_timeout);
+  return options;
+}
+
+/// Whether the camera file is of the stream's images.
+void require_size(const LiveSource& source, const CameraFile& camera, const std::string& file) {
+  const cv::Size stated(camera.camera.width, camera.camera.height);
+  const std::string degrees = std::to_string(90 * source.quarters()) + " degrees clockwise";
+  if (source.size() != stated) {
+    throw InputError(source.name(),
+                     "its images are " + size_text(source.size()) +
+                         (source.quarters() != 0 ? ", turned by " + degrees + " as the stream says" : "") + "; " +
+                         file + " is for " + size_text(stated) +
+                         ": calibrate at the size of the stream, or set the camera to that of the calibration");
+  }
+  if (source.quarters() != 0) {
+    log_warning(source.name() + ": its images are turned by " + degrees + ", as the stream says; " + file +
+                " must be of the turned images");
+  }
+}
+
+}  // namespace
+
+LiveFrames::LiveFrames(const TrackJob& job)
+    : camera_(read_camera_file(job.sequence.options.camera_file)),
+      correction_(camera_, job.sequence.options.camera_file, job.sequence.options.max_image_pixels),
+      source_(job.sequence.path, options_of(job, camera_), [] { return interrupted(); }) {
+  require_size(source_, camera_, job.sequence.options.camera_file);
+}
+
+std::optional<InputFrame> LiveFrames::next(const std::function<bool()>& stopped) {
+  constexpr double nap = 0.05;  // [s]
+  std::optional<LiveFrame> taken;
+  do {
+    if (stopped() || source_.ended()) return std::nullopt;
+    taken = source_.take(nap);
+  } while (!taken);
+  InputFrame frame;
+  frame.number = taken->number;
+  frame.time = taken->time;
+  frame.stamp = StampedPose{taken->time, {}, ""}.stamp();
+  frame.dropped = taken->dropped;
+  frame.arrival = taken->arrival;
+  frame.image = correction_.gray(source_.name(), taken->rgb);
+  return frame;
+}
+
+nlohmann::ordered_json LiveFrames::facts() const {
+  const LiveCounts counts = source_.counts();
+  const auto utc = std::chrono::system_clock::now().time_since_epoch();
+  const auto steady = std::chrono::steady_clock::now().time_since_epoch();
+  return {
+      {"source", source_.name()},
+      {"live", true},
+      {"damaged", counts.damaged},
+      {"reconnections", counts.reconnections},
+      {"utc_minus_time_s", std::chrono::duration<double>(utc).count() - std::chrono::duration<double>(steady).count()}};
+}
+
+void check_live_flags(const TrackJob& job) {
+  const std::string shown = shown_address(job.sequence.path);
+  if (!job.is_live()) {
+    const std::string unused = "is for live sources, and " + shown + " is none";
+    if (job.live.reconnect) throw InputError("--reconnect", unused);
+    if (job.live.open_timeout) throw InputError("--open-timeout", unused);
+    if (job.live.part_frames) throw InputError("--part-frames", unused);
+    return;
+  }
+  const std::string cannot = "cannot be used with a live source (" + shown + ")";
+  if (job.sequence.options.camera_file.empty()) {
+    throw InputError(shown, "a live source needs a camera file (--camera)");
+  }
+  if (!job.sequence.options.layout.empty()) throw InputError("--layout", cannot);
+  if (!job.frames.empty()) throw InputError("--frames", cannot);
+  if (job.start == "truth") throw InputError("--start", "truth " + cannot + ": give auto, or a pose");
+  if (job.method == "rgbd") throw InputError("--method", "rgbd " + cannot + ": it has no depth images");
+}
+
+}  // namespace odosplat::apps
