@@ -89,7 +89,8 @@ struct LiveInput::State {
     format->pb = io.get();
     // As for files: no playlist or list may name something else to open.
     av_dict_set(options, "protocol_whitelist", "pipe", 0);
-    av_dict_set(options, "format_whitelist", (std::string(single_files) + ",yuv4mpegpipe").c_str(), 0);
+    av_dict_set(options, "format_whitelist", single_files, 0);
+    av_dict_set(options, "format_whitelist", ",yuv4mpegpipe", AV_DICT_APPEND);
   }
 
   void open(const LiveOptions& wishes) {
