@@ -65,7 +65,7 @@ TEST_F(LostWork, ADamagedImageIsALostFrame) {
     EXPECT_THAT(run.err, HasSubstr("3 of 30 frames cannot be read"));
     const std::vector<std::string> rows = status();
     ASSERT_EQ(rows.size(), frames + 1U);
-    EXPECT_THAT(rows[0], testing::EndsWith(",in_map,confirmed,reason"));
+    EXPECT_THAT(rows[0], testing::EndsWith(",in_map,confirmed,reason,latency_ms"));
     EXPECT_THAT(rows[13], testing::AllOf(HasSubstr(",lost,0,"), HasSubstr("0012.png")));
     EXPECT_THAT(rows[21], testing::AllOf(HasSubstr(",lost,0,"), HasSubstr("0020.png")));
     EXPECT_THAT(rows[26], testing::AllOf(HasSubstr(",lost,0,"), HasSubstr("0025.png")));

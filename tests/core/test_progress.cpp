@@ -42,6 +42,12 @@ TEST_F(ProgressTest, FirstLineGuessesNoTime) {
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("train 1/4000  left -:--"));
 }
 
+TEST_F(ProgressTest, WithoutATotalSaysWhatIsDone) {
+  Progress progress("track", Progress::unknown);
+  for (long k = 1; k < 500; ++k) progress.update(k, "ok");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "track 1  ok\n");
+}
+
 TEST_F(ProgressTest, IsSilentWhereTheLogShowsNoInformation) {
   set_log_level("warning");
   Progress progress("train", 3);

@@ -2,6 +2,8 @@
 // Copyright 2026 The odosplat authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "odosplat/odometry/trajectory_record.hpp"
 
 namespace odosplat {
@@ -81,6 +83,44 @@ TEST(TrajectoryRecord, WhatIsWithdrawnIsNotInTheTrajectory) {
   EXPECT_EQ(trajectory[1].time, 0.2);
   EXPECT_EQ(trajectory[2].time, 0.4);
   EXPECT_NEAR(trajectory[2].T_world_camera.translation().x(), 0.4, 1e-12);
+}
+
+// The same frames with and without forgetting: what is left agrees, and what is kept is bounded.
+TEST(TrajectoryRecord, WhatIsForgottenDoesNotChangeTheRest) {
+  TrajectoryRecord all;
+  TrajectoryRecord bounded;
+  const auto both = [&](auto work) {
+    work(all);
+    work(bounded);
+  };
+  both([](TrajectoryRecord& record) { record.add_keyframe(0.0, at(0.0)); });
+  int keyframe = 0;
+  for (int k = 1; k < 4000; ++k) {
+    const double time = 0.1 * k;
+    both([&](TrajectoryRecord& record) { record.add_frame(time, keyframe, at(0.01 * (k % 5))); });
+    if (k % 5 == 0) {
+      // A keyframe that comes two frames late, as in real time, and corrects the pose that tracking gave.
+      both([&](TrajectoryRecord& record) {
+        EXPECT_EQ(record.add_keyframe(0.1 * (k - 2), at(0.02 * k)), keyframe + 1);
+        for (int id = std::max(0, keyframe - 5); id <= keyframe; ++id) record.move_keyframe(id, at(0.02 * id));
+      });
+      ++keyframe;
+    }
+    if (k % 100 == 0) bounded.forget(time - 20.0);
+    EXPECT_EQ(bounded.keyframe_time(keyframe), all.keyframe_time(keyframe));
+  }
+  bounded.move_keyframe(0, at(99.0));  // forgotten: no frame belongs to it
+  const Trajectory rest = bounded.compose();
+  const Trajectory whole = all.compose();
+  ASSERT_LT(rest.size(), 350U);
+  ASSERT_GT(rest.size(), 190U);
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    const StampedPose& same = whole[whole.size() - rest.size() + k];
+    EXPECT_EQ(rest[k].time, same.time);
+    EXPECT_EQ(rest[k].T_world_camera.translation().x(), same.T_world_camera.translation().x()) << rest[k].time;
+  }
+  EXPECT_LT(bounded.keyframe_times().size(), 140U);
+  EXPECT_EQ(bounded.keyframe_times().back(), all.keyframe_times().back());
 }
 
 }  // namespace

@@ -17,8 +17,9 @@ namespace {
 
 /// Of a part: ten minutes at 30 Hz.
 constexpr std::size_t usual_part_frames = 18'000;
-/// Newest frames that are not put aside yet: keyframes in the making still change their poses.
-constexpr std::size_t unsettled_frames = 300;
+/// Newest frames that are not put aside yet, since keyframes in the making still change their poses; at most as many as
+/// a part has.
+constexpr std::size_t most_unsettled = 300;
 
 double milliseconds_since(std::chrono::steady_clock::time_point when) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - when).count();
@@ -73,7 +74,7 @@ void TrackRun::track(const InputFrame& frame) {
     status = result.status;
   }
   report_progress(frame, status);
-  if (part_frames_ && record_.kept() >= *part_frames_ + unsettled_frames) put_aside();
+  if (part_frames_ && record_.kept() >= *part_frames_ + std::min(*part_frames_, most_unsettled)) put_aside();
 }
 
 void TrackRun::report_progress(const InputFrame& frame, TrackStatus status) {
@@ -155,7 +156,7 @@ void TrackRun::put_aside() {
     return;  // later: the disk is slow
   }
   const auto results = std::make_shared<const OdometryResults>(results_of(odometry_));
-  const auto old = std::make_shared<const TrackRecord>(record_.take_out(record_.kept() - unsettled_frames));
+  const auto old = std::make_shared<const TrackRecord>(record_.take_out(*part_frames_));
   odometry_.forget(record_.first_time());
   const std::string folder = part_folder(job_.out, ++parts_);
   part_ = std::async(std::launch::async, [old, results, folder] {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "odosplat/core/formatted.hpp"
@@ -52,8 +53,8 @@ void Progress::update(long done, const std::string& detail) {
   const std::optional<double> left = time_left_.update(done, std::chrono::duration<double>(now - start_).count());
   const double since = std::chrono::duration<double>(now - last_print_).count();
   const bool last = counted && done >= total_;
-  if (terminal_ ? (since >= 0.1 || last) : ((counted && done >= next_plain_) || since >= 30.0 || last)) {
-    if (!terminal_) next_plain_ = done + std::max(1L, total_ / 10);
+  if (terminal_ ? (since >= 0.1 || last) : (done >= next_plain_ || since >= 30.0 || last)) {
+    if (!terminal_) next_plain_ = counted ? done + std::max(1L, total_ / 10) : std::numeric_limits<long>::max();
     last_print_ = now;
     print(done, left ? format_duration(*left) : "-:--", printable_line(detail));
   }

@@ -30,8 +30,8 @@ class TimeLeft {
 class Progress {
  public:
   static constexpr long unknown = -1;
-  /// what: a word or two ("train"). total: number of steps, or `unknown`: neither bar nor time left is shown, and a plain
-  /// line every 30 s. The time left follows from the steps after the first update.
+  /// what: a word or two ("train"). total: number of steps, or `unknown`: neither bar nor time left is shown, and plain
+  /// lines at the first update and every 30 s. The time left follows from the steps after the first update.
   Progress(const std::string& what, long total);
   /// Ends the line; also done by the destructor.
   ~Progress();
