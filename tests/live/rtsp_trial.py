@@ -4,7 +4,7 @@
 """Tracks a recorded sequence that an RTSP server of this script plays at its own rate, and compares the poses with the
 sequence's true ones. With --outage the server is gone for some seconds in the middle.
 
-    python3 tests/live/rtsp_trial.py --odosplat build/release/bin/odosplat --sequence SEQ --map map.ply --out DIR
+    /usr/bin/python3 tests/live/rtsp_trial.py --odosplat build/release/bin/odosplat --sequence SEQ --map map.ply --out DIR
 
 SEQ is a folder in TUM layout with groundtruth.txt. Needs the Debian packages ffmpeg, python3-gi,
 gir1.2-gst-rtsp-server-1.0, gstreamer1.0-plugins-base, -good and -bad."""
@@ -13,6 +13,7 @@ import bisect
 import json
 import math
 import os
+import socket
 import subprocess
 import sys
 import threading
@@ -58,7 +59,14 @@ class Server:
 
 
 def start_server(video, port):
-    return subprocess.Popen([sys.executable, os.path.abspath(__file__), "--serve", video, "--port", str(port)])
+    server = subprocess.Popen([sys.executable, os.path.abspath(__file__), "--serve", video, "--port", str(port)])
+    while server.poll() is None:
+        try:
+            socket.create_connection(("127.0.0.1", port), 1.0).close()
+            return server
+        except OSError:
+            time.sleep(0.1)
+    sys.exit("the RTSP server has ended")
 
 
 def positions(path):
@@ -114,12 +122,11 @@ def main():
     if not os.path.exists(video):
         encode(words.sequence, video, words.fps)
     server = start_server(video, words.port)
-    time.sleep(2.0)
     length = len(rows(os.path.join(words.sequence, "rgb.txt"))) / words.fps
     run = os.path.join(words.out, "run")
     track = subprocess.Popen(
         [words.odosplat, "track", f"rtsp://me:secret@127.0.0.1:{words.port}/cam", "--map", words.map, "--camera",
-         os.path.join(words.sequence, "camera.yaml"), "--out", run, "--reconnect", "5" if words.outage == 0.0 else "30",
+         os.path.join(words.sequence, "camera.yaml"), "--out", run, "--reconnect", "0" if words.outage == 0.0 else "30",
          "--stream", "-"], stdout=subprocess.PIPE, text=True)
     lines = []
     first = threading.Event()
@@ -138,8 +145,10 @@ def main():
         server.wait()
         time.sleep(words.outage)
         server = start_server(video, words.port)
+        words.seconds = words.seconds or length / 2.0
     if words.seconds > 0.0:
         first.wait(120.0)
+        # The server plays the video to every client, so that the source would never end.
         time.sleep(words.seconds)
         track.send_signal(2)
     status = track.wait()

@@ -216,7 +216,19 @@ const std::string& LiveInput::fault() const { return state_->fault; }
 long LiveInput::damaged() const { return state_->damaged; }
 int LiveInput::quarters() const { return state_->quarters; }
 
-ffmpeg::Frame LiveInput::frame() const { return Frame(av_frame_clone(state_->frame.get())); }
+ffmpeg::Frame LiveInput::frame() const {
+  const AVFrame& decoded = *state_->frame;
+  // A camera's frames lie in memory of its driver, which goes when the camera is closed.
+  if (state_->kind != LiveKind::device) return Frame(av_frame_clone(&decoded));
+  Frame copy(av_frame_alloc());
+  if (copy == nullptr) return nullptr;
+  copy->format = decoded.format;
+  copy->width = decoded.width;
+  copy->height = decoded.height;
+  const bool copied = av_frame_get_buffer(copy.get(), 0) >= 0 && av_frame_copy(copy.get(), &decoded) >= 0 &&
+                      av_frame_copy_props(copy.get(), &decoded) >= 0;
+  return copied ? std::move(copy) : nullptr;
+}
 
 std::optional<double> LiveInput::stamp() const {
   if (!state_->has_stamps) return std::nullopt;

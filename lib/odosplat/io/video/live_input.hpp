@@ -32,7 +32,7 @@ class LiveInput {
   const std::string& fault() const;
   long damaged() const;
 
-  /// The image of the last next(), for take_frame(): the caller owns it.
+  /// The image of the last next(), which may outlive this; null: too little memory.
   ffmpeg::Frame frame() const;
   /// Stamp [s] of that image; none if the stream has none.
   std::optional<double> stamp() const;
