@@ -102,7 +102,7 @@ TrackOutcome TrackRecord::outcome(const OdometryResults& results, double cpu_sec
 }
 
 nlohmann::ordered_json TrackRecord::report(const TrackJob& job, const OdometryResults& results,
-                                           const RunFacts& facts) const {
+                                           const TrackFacts& facts) const {
   const TrackOutcome o = outcome(results, facts.cpu_seconds);
   const OdometryStatistics& s = results.statistics;
   nlohmann::ordered_json stages = nlohmann::ordered_json::object();
@@ -151,7 +151,7 @@ void TrackRecord::write_tables(const std::string& folder, const OdometryResults&
   write_file_atomically(folder + "/covariance.csv", covariance_table(), durability);
 }
 
-void TrackRecord::write(const TrackJob& job, const OdometryResults& results, const RunFacts& facts) const {
+void TrackRecord::write(const TrackJob& job, const OdometryResults& results, const TrackFacts& facts) const {
   const Durability durability = facts.finished ? Durability::synced : Durability::fast;
   write_tables(job.out, results, durability);
   write_file_atomically(job.out + "/report.json", json_text(report(job, results, facts)), durability);

@@ -25,7 +25,7 @@ struct OdometryResults {
 OdometryResults results_of(const Odometry& odometry);
 
 /// Facts of a run for report.json that are not those of its frames.
-struct RunFacts {
+struct TrackFacts {
   std::string device;
   double cpu_seconds = 0.0;       // of the whole process, including reading and rendering
   bool finished = false;          // no more frames follow
@@ -54,7 +54,7 @@ class TrackRecord {
   TrackOutcome outcome(const OdometryResults& results, double cpu_seconds) const;
 
   /// Writes trajectory.txt, trajectory_live.txt, status.csv, covariance.csv and report.json to the folder job.out.
-  void write(const TrackJob& job, const OdometryResults& results, const RunFacts& facts) const;
+  void write(const TrackJob& job, const OdometryResults& results, const TrackFacts& facts) const;
 
   /// The oldest frames kept, as a record of their own. counts and durations stay.
   TrackRecord take_out(std::size_t frames);
@@ -75,7 +75,7 @@ class TrackRecord {
   Trajectory stamped(const Trajectory& trajectory) const;
   std::string status_table(const std::vector<double>& keyframe_times) const;
   std::string covariance_table() const;
-  nlohmann::ordered_json report(const TrackJob& job, const OdometryResults& results, const RunFacts& facts) const;
+  nlohmann::ordered_json report(const TrackJob& job, const OdometryResults& results, const TrackFacts& facts) const;
 
   std::vector<Row> rows_;
   DurationSamples tracking_ms_;

@@ -90,8 +90,8 @@ void TrackRun::report_progress(const InputFrame& frame, TrackStatus status) {
   progress_.update(done_, words);
 }
 
-RunFacts TrackRun::facts(bool finished) const {
-  RunFacts facts;
+TrackFacts TrackRun::facts(bool finished) const {
+  TrackFacts facts;
   facts.device = device_;
   facts.cpu_seconds = cpu_seconds() - cpu_before_;
   facts.finished = finished;
@@ -107,7 +107,7 @@ TrackOutcome TrackRun::write(bool finished) {
   if (writing_.valid()) writing_.wait();
   if (part_.valid()) part_.wait();
   const OdometryResults results = results_of(odometry_);
-  const RunFacts now = facts(finished);
+  const TrackFacts now = facts(finished);
   record_.write(job_, results, now);
   return record_.outcome(results, now.cpu_seconds);
 }
@@ -122,7 +122,7 @@ void TrackRun::write_now_and_then() {
   }
   if (since_write_.seconds() < next_write_ || record_.tracked() == written_) return;
   written_ = record_.tracked();
-  const auto write_these = [this](const TrackRecord& record, const OdometryResults& results, const RunFacts& now) {
+  const auto write_these = [this](const TrackRecord& record, const OdometryResults& results, const TrackFacts& now) {
     const Stopwatch watch;
     try {
       record.write(job_, results, now);

@@ -36,7 +36,7 @@ class TrackRun {
  private:
   void track(const InputFrame& frame);
   void report_progress(const InputFrame& frame, TrackStatus status);
-  RunFacts facts(bool finished) const;
+  TrackFacts facts(bool finished) const;
   void write_now_and_then();
   void note_written(bool ok, double seconds);
   void put_aside();

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "odosplat/io/video/ffmpeg_parts.hpp"
-#include "odosplat/io/video/live_source.hpp"
+#include "odosplat/io/video/live_options.hpp"
 
 namespace odosplat {
 

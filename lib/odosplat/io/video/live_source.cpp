@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -40,13 +39,6 @@ double on_steady_clock(Clock::time_point when) {
 }
 
 }  // namespace
-
-void LiveOptions::check() const {
-  require(std::isfinite(open_timeout) && open_timeout > 0.0, "open_timeout", "finite and positive [s]");
-  require(std::isfinite(stall_timeout) && stall_timeout > 0.0, "stall_timeout", "finite and positive [s]");
-  require(std::isfinite(reconnect) && reconnect >= 0.0, "reconnect", "finite, at least 0 [s]");
-  require(max_pixels >= 1, "max_pixels", "at least 1");
-}
 
 /// Shared with the thread, which may outlive the source for as long as a name server or a driver blocks it.
 struct LiveSource::State {

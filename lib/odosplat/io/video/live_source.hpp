@@ -4,25 +4,15 @@
 
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 
+#include "odosplat/io/video/live_options.hpp"
+
 namespace odosplat {
-
-struct LiveOptions {
-  cv::Size size;                          // [px] asked of a camera of this machine; empty: what it gives unasked
-  std::int64_t max_pixels = 100'000'000;  // larger images are not decoded
-  double open_timeout = 10.0;             // [s] until the first image, when the source is opened
-  double stall_timeout = 5.0;             // [s] without an image after which the source counts as lost
-  double reconnect = 60.0;                // [s] for which a lost source is tried again; 0: not at all
-
-  /// Throws InputError for a time that is negative or not finite (open_timeout and stall_timeout: not positive).
-  void check() const;
-};
 
 /// An image of a live source.
 struct LiveFrame {
