@@ -2,7 +2,6 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
