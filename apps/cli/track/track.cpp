@@ -39,7 +39,7 @@ SE3 given_start(const TrackJob& job) {
   if (std::string more; text >> more) throw InputError("--start", "has more than seven numbers: " + job.start);
   const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
   try {
-    const SE3 start(rotation_from_text(q), Eigen::Vector3d(v[0], v[1], v[2]));
+    SE3 start(rotation_from_text(q), Eigen::Vector3d(v[0], v[1], v[2]));
     if (!start.is_finite()) throw InputError("the position is not finite");
     return start;
   } catch (const InputError& e) {
@@ -151,7 +151,7 @@ TrackOutcome track_frames(const Common& common, const TrackJob& job, FrameSource
   }
   if (!played && record.tracked() == 0) throw Interrupted();  // keeps the results of an earlier run
   if (stream != nullptr) stream->finish();
-  const TrackOutcome outcome = run.write(played);
+  TrackOutcome outcome = run.write(played);
   if (record.unreadable() > 0) {
     log_warning(std::to_string(record.unreadable()) + " of " + std::to_string(outcome.frames) +
                 " frames cannot be read and count as lost; status.csv has the reasons");
