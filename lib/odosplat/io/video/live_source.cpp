@@ -24,7 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double first_pause = 0.5;  // [s] before a lost source is opened again
-constexpr double longest_pause = 8.0;
+constexpr double longest_pause = 4.0;
 constexpr double most_ahead = 5.0;  // [s] by which images may come before their time without a warning
 constexpr auto nap = std::chrono::milliseconds(20);
 constexpr auto farewell = std::chrono::milliseconds(300);

@@ -44,7 +44,7 @@ struct LiveCounts {
 /// multiples of 1 us.
 ///
 /// A network source or camera that closes, fails, or is silent for stall_timeout is lost: a warning says so, and it is
-/// opened again after pauses of 0.5 s to 8 s, until options.reconnect seconds have passed since; then it has ended. A pipe
+/// opened again after pauses of 0.5 s to 4 s, until options.reconnect seconds have passed since; then it has ended. A pipe
 /// ends when its writers close it, or when it has been silent for stall_timeout + reconnect, with a warning after
 /// stall_timeout. Passwords in addresses are never shown (shown_address).
 /// take() and counts() may be called from one thread at a time.
