@@ -73,6 +73,33 @@ TEST_F(RelocalizerTest, FindsEveryViewOfItsRoom) {
   }
 }
 
+TEST_F(RelocalizerTest, SaysHowSureItIs) {
+  Relocalizer relocalizer(camera_, room_, places());
+  for (int k = 11; k < 225; k += 23) {
+    const Relocalization answer = relocalizer.find(room_.gray(camera_, test::room_path(k)));
+    ASSERT_TRUE(answer.found) << k << ": " << answer.reason;
+    EXPECT_GT(answer.probability, 0.99);
+    const Vector6d error = (test::room_path(k) * answer.T_world_camera.inverse()).log();
+    EXPECT_LT(error.dot(answer.covariance.ldlt().solve(error)), 60.0) << k;
+    EXPECT_LT(answer.covariance.topLeftCorner<3, 3>().trace(), 0.01 * 0.01) << k;
+  }
+}
+
+// A displaced world changes the covariance as a perturbation on the left of the pose.
+TEST_F(RelocalizerTest, TheCovarianceIsInTheFrameOfTheWorld) {
+  TwinRooms rooms;
+  std::vector<SE3> others;
+  for (const SE3& place : places()) others.push_back(TwinRooms::other(place));
+  const GrayImage image = room_.gray(camera_, test::room_path(40));
+  const Relocalization here = Relocalizer(camera_, rooms, places()).find(image);
+  const Relocalization there = Relocalizer(camera_, rooms, others).find(image);
+  ASSERT_TRUE(here.found && there.found);
+  const Matrix6d adjoint = TwinRooms::other(SE3()).adjoint();
+  const Matrix6d expected = adjoint * here.covariance * adjoint.transpose();
+  EXPECT_LT((there.covariance - expected).norm(), 0.01 * expected.norm());
+  EXPECT_GT((there.covariance - here.covariance).norm(), 0.5 * expected.norm());
+}
+
 TEST_F(RelocalizerTest, ExposureDoesNotMatter) {
   Relocalizer relocalizer(camera_, room_, places());
   GrayImage image;
@@ -94,6 +121,8 @@ TEST_F(RelocalizerTest, RefusesAnotherRoom) {
     EXPECT_FALSE(answer.found) << k << " score " << answer.score;
     EXPECT_FALSE(answer.reason.empty());
     EXPECT_EQ(answer.T_world_camera.matrix(), SE3().matrix());
+    EXPECT_EQ(answer.covariance, Matrix6d::Zero());
+    EXPECT_LT(answer.probability, 0.99);
   }
 }
 

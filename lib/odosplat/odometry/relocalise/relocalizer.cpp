@@ -131,6 +131,7 @@ Relocalization Relocalizer::look_up(const GrayImage& image, const std::optional<
   }
   const Finalist& best = finalists[order.front()];
   result.score = best.evidence.score;
+  result.probability = best.evidence.probability;
   result.inlier_share = best.candidate.alignment.inlier_share;
   result.reason = best.fault;
   for (std::size_t k = 1; k < order.size() && result.reason.empty(); ++k) {
@@ -142,6 +143,7 @@ Relocalization Relocalizer::look_up(const GrayImage& image, const std::optional<
   if (!result.reason.empty()) return result;
   result.found = true;
   result.T_world_camera = best.candidate.T_world_camera();
+  result.covariance = best.covariance;
   result.brightness = best.candidate.alignment.brightness;
   return result;
 }
@@ -252,6 +254,9 @@ Relocalizer::Finalist Relocalizer::verify(const Candidate& candidate, const Fram
     return finalist;
   }
   finalist.candidate = {T_world_camera, {}, alignment};
+  // exp(xi) on the right of T_target_host is exp(-Ad xi) on the left of T_world_camera = T_world_host T_target_host^-1.
+  const Matrix6d adjoint = T_world_camera.adjoint();
+  finalist.covariance = adjoint * covariance * adjoint.transpose();
   for (const double sign : {-1.0, 1.0}) {
     const double d = sign * options_.disturbance;
     Vector6d away;

@@ -48,9 +48,13 @@ struct RelocalizerOptions {
 /// Where an image was taken, or why that is not known.
 struct Relocalization {
   bool found = false;
-  SE3 T_world_camera;         // identity if not found: no pose is made up
+  SE3 T_world_camera;  // identity if not found: no pose is made up
+  /// Of exp(xi) on the left of T_world_camera, xi = (translation [m], rotation [rad]): covariance_factor times that of the
+  /// last alignment. Zero if not found.
+  Matrix6d covariance = Matrix6d::Zero();
   Brightness brightness;      // of the image against the map's rendered one
   double score = 0.0;         // of the best pose, MapEvidence::score, also if it was refused
+  double probability = 0.0;   // that the best pose is right, MapEvidence::probability, also if it was refused
   double inlier_share = 0.0;  // of the best pose's alignment
   std::string reason;         // why not found; empty if found
 };
@@ -90,7 +94,8 @@ class Relocalizer {
   struct Finalist {
     Candidate candidate;
     MapEvidence evidence;
-    std::string fault;  // why it is not accepted
+    Matrix6d covariance = Matrix6d::Zero();  // of exp(xi) on the left of its T_world_camera
+    std::string fault;                       // why it is not accepted
   };
 
   Relocalization look_up(const GrayImage& image, const std::optional<SE3>& T_world_near);
