@@ -3,18 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/command/interrupt.hpp"
 #include "apps/command/number_flags.hpp"
 #include "apps/command/output.hpp"
 #include "apps/command/support.hpp"
 #include "apps/input/cloud_files.hpp"
+#include "apps/input/sequence_cloud.hpp"
 #include "apps/input/sequence_flags.hpp"
-#include "apps/input/unreadable_frames.hpp"
 #include "odosplat/cloud/cloud_builder.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/formatted.hpp"
-#include "odosplat/core/log.hpp"
-#include "odosplat/core/progress.hpp"
 #include "odosplat/io/atomic_file.hpp"
 #include "odosplat/io/cloud/cloud_file.hpp"
 #include "odosplat/io/sequence/sequence.hpp"
@@ -34,39 +31,11 @@ struct CloudFlags {
   CloudOptions cloud;
 };
 
-void add_frames(const Sequence& sequence, const CloudFlags& flags, CloudBuilder& builder) {
-  const FrameRange range = flags.frames.empty() ? FrameRange() : parse_frames(flags.frames);
-  const std::vector<std::size_t> frames = posed_frames(sequence, flags.every, range);
-  Progress progress("cloud " + sequence.name(), static_cast<long>(frames.size()));
-  long done = 0;
-  UnreadableFrames unreadable;
-  for (const std::size_t i : frames) {
-    if (interrupted()) throw Interrupted();
-    if (sequence.has_depth(i) && sequence.T_world_depth(i)) {
-      DepthImage depth;
-      ColorImage color;
-      try {
-        depth = sequence.depth(i);
-        color = sequence.color(i);
-      } catch (const InputError& e) {
-        unreadable.add(e.what());
-        depth.release();
-      }
-      if (!depth.empty()) builder.add(depth, color, sequence.camera(), *sequence.T_world_depth(i));
-    }
-    progress.update(++done, std::to_string(builder.voxels()) + " points");
-  }
-  progress.finish();
-  unreadable.report(frames.size());
-}
-
-PointCloud cloud_of_sequences(const CloudFlags& flags) {
-  CloudBuilder builder(flags.cloud);
-  for (const std::string& path : flags.sequences)
-    add_frames(open_sequence({path, flags.layout.options}), flags, builder);
-  PointCloud cloud = builder.finish();
-  if (cloud.size() == 0) throw InputError(flags.sequences[0], "no frame has both a pose and depth");
-  return cloud;
+PointCloud cloud_of_flags(const CloudFlags& flags) {
+  std::vector<Sequence> sequences;
+  for (const std::string& path : flags.sequences) sequences.push_back(open_sequence({path, flags.layout.options}));
+  return cloud_of_sequences(sequences, flags.cloud, flags.every,
+                            flags.frames.empty() ? FrameRange() : parse_frames(flags.frames));
 }
 
 std::vector<std::string> notes_of(const Eigen::Vector3d& origin) {
@@ -79,8 +48,7 @@ void run(const CloudFlags& flags) {
   check_extension(flags.out, {".ply"});
   const MadeFolders made = ensure_output_file(flags.out);
   const Eigen::Vector3d origin(flags.origin[0], flags.origin[1], flags.origin[2]);
-  PointCloud cloud =
-      flags.from.empty() ? cloud_of_sequences(flags) : read_thinned(flags.from, flags.cloud.voxel, origin);
+  PointCloud cloud = flags.from.empty() ? cloud_of_flags(flags) : read_thinned(flags.from, flags.cloud.voxel, origin);
   if (flags.remove_outliers) cloud = without_outliers(cloud);
   write_point_cloud(flags.out, cloud, notes_of(origin));
   print("%s: %zu points\n", flags.out.c_str(), cloud.size());

@@ -10,6 +10,7 @@
 
 #include "apps/input/cloud_files.hpp"
 #include "apps/input/map_formats.hpp"
+#include "apps/input/sampled_places.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/core/upper_median.hpp"
@@ -163,8 +164,7 @@ MapPoints read_map_points(const MapFlags& flags) {
   const Gaussians g = read_map(flags.map).gaussians;
   const auto stride = static_cast<std::size_t>(3 * g.coefficients());
   for (std::size_t i = 0; i < g.size(); ++i) {
-    // Almost transparent Gaussians are not drawn.
-    if (g.opacity_logits[i] < -2.0F) continue;
+    if (!counts_as_surface(g, i)) continue;
     const Eigen::Map<const Eigen::Vector3f> log_scale(&g.log_scales[3 * i]);
     const float* q = &g.rotations[4 * i];
     const Eigen::Quaternionf rotation = Eigen::Quaternionf(q[0], q[1], q[2], q[3]).normalized();

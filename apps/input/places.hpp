@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/input/map_views.hpp"
+#include "apps/input/sampled_places.hpp"
 #include "odosplat/core/se3.hpp"
 
 namespace odosplat::apps {
@@ -18,11 +19,5 @@ inline constexpr const char* places_help =
 /// given, thinned; otherwise the poses of the training images, as stored in the map file; otherwise samples of the
 /// space around the map's points (sampled_places, with a log message).
 std::vector<SE3> places_of(const MapFlags& flags, const std::string& file);
-
-/// Sampled poses in a map of which only the points are known [m, world]: a grid of 1 m at mid-height of the points'
-/// bounding box, each with 12 level viewing directions; positions within 0.3 m of a point are left out. The shortest
-/// side of the box is taken as vertical; up is -y if y is vertical (the cameras' convention), otherwise +z or +x. Less
-/// reliable than poses that a camera had.
-std::vector<SE3> sampled_places(const std::vector<Eigen::Vector3f>& points_world);
 
 }  // namespace odosplat::apps

@@ -2,7 +2,6 @@
 // Copyright 2026 The odosplat authors
 #include "apps/input/public_options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -59,13 +58,13 @@ double value_of(const PublicOption& option, const std::string& text) {
   return value;
 }
 
+}  // namespace
+
 std::string group_words(const std::vector<std::string>& groups) {
   std::string words;
   for (const std::string& group : groups) words += (words.empty() ? "" : ", ") + group + ".*";
   return words;
 }
-
-}  // namespace
 
 const std::vector<PublicOption>& public_options() {
   static const std::vector<PublicOption> options{
@@ -222,27 +221,6 @@ void OptionValues::apply(InitializeOptions& options) const {
   all.start = options;
   apply_group("train", all);
   options = all.start;
-}
-
-void add_set_flag(CLI::App* command, std::vector<std::string>& settings, const std::vector<std::string>& groups) {
-  command
-      ->add_option("--set", settings,
-                   "NAME=VALUE: an option of " + group_words(groups) +
-                       " (odosplat options lists them); may be given several times")
-      ->type_name("NAME=VALUE")
-      ->check(CLI::Validator(
-          [groups](const std::string& setting) -> std::string {
-            try {
-              OptionValues({setting}, groups);
-            } catch (const InputError& e) {
-              const std::string fault = e.what();  // the parser adds the flag's name itself
-              return fault.substr(std::string("--set: ").size());
-            }
-            return "";
-          },
-          "", "option"))
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
 }
 
 std::string options_table() {

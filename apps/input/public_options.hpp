@@ -68,6 +68,9 @@ class OptionValues {
   std::vector<std::pair<const PublicOption*, double>> values_;
 };
 
+/// "odometry.*, relocaliser.*" for these groups.
+std::string group_words(const std::vector<std::string>& groups);
+
 /// Declares --set NAME=VALUE (may be given several times) for options of these groups; `settings` receives the texts.
 void add_set_flag(CLI::App* command, std::vector<std::string>& settings, const std::vector<std::string>& groups);
 

@@ -15,7 +15,6 @@
 namespace odosplat::apps {
 namespace {
 
-constexpr const char* line_begins = "training_frames";
 constexpr std::size_t usual_every = 10;  // default of train --every
 
 /// Frames begin, begin + every, ... before end, counted from 0; begin is a multiple of every.
@@ -43,12 +42,12 @@ Header read_header(const std::string& map, const Sequence& sequence) {
   for (const std::string& line : read_map_header(map).notes) {
     std::istringstream in(line);
     std::string word;
-    if (!(in >> word) || word != line_begins) continue;
+    if (!(in >> word) || word != training_frames_word) continue;
     Progression p;
     std::size_t size = 0;
     std::string name;
     if (!(in >> p.every >> p.begin >> p.end >> size) || p.every == 0 || !std::getline(in >> std::ws, name))
-      throw InputError(map, line_begins + (": must be three numbers, a size and a name, is \"" + line + "\""));
+      throw InputError(map, training_frames_word + (": must be three numbers, a size and a name, is \"" + line + "\""));
     header.speaks = true;
     header.sequences += (header.sequences.empty() ? "" : ", ") + name;
     if (name == sequence.name() && size == sequence.size()) header.of_this.push_back(p);
@@ -64,14 +63,6 @@ void add_skip_every_flag(CLI::App* command, int& skip_every) {
       "leave out frames 0, N, 2N ... the map was made from; map: those that its header names, or every 10th if it "
       "names none; 0 or none: leave out none")
       ->transform([](const std::string& text) { return text == "none" ? std::string("0") : text; });
-}
-
-std::string training_frames_line(const Sequence& sequence, int every, const FrameRange& range) {
-  const auto step = static_cast<std::size_t>(every);
-  const std::size_t begin = (std::min(range.begin, sequence.size()) + step - 1) / step * step;
-  return std::string(line_begins) + " " + std::to_string(step) + " " + std::to_string(begin) + " " +
-         std::to_string(std::min(range.end, sequence.size())) + " " + std::to_string(sequence.size()) + " " +
-         sequence.name();
 }
 
 std::vector<std::size_t> frames_not_trained_on(const Sequence& sequence, const FrameRange& range, int skip_every,

@@ -16,9 +16,6 @@ inline constexpr int skip_as_map_says = -1;
 /// Declares --skip-every.
 void add_skip_every_flag(CLI::App* command, int& skip_every);
 
-/// The line of a map's header for one of its sequences: frames 0, N, 2N, ... within the range were trained on.
-std::string training_frames_line(const Sequence& sequence, int every, const FrameRange& range);
-
 /// Frames of `sequence` in `range` that the map was not made from. Left out are:
 ///   skip_every > 0: frames 0, N, 2N, ...
 ///   skip_every = 0: none

@@ -68,7 +68,7 @@ TEST_F(Training, KeepsTheCheckpointOfAnEarlierRun) {
 TEST_F(Training, TheLibraryMakesTheSameMap) {
   const std::string map = scratch_ / "map.ply";
   ASSERT_EQ(run_odosplat(words(map)).status, 0);
-  apps::SequenceViews views({sequence_}, {}, 3, {});
+  apps::SequenceViews views({Sequence::open(sequence_)}, 3, {});
   TrainerOptions options = TrainerOptions::preset("default", views.count());
   options.iterations = 120;
   const TrainedMap made = odosplat::train_map(compute::Context::open(), read_point_cloud(cloud_), views,
@@ -99,7 +99,7 @@ TEST_F(Training, TheLibraryMakesTheSameMap) {
 TEST_F(Training, TheLibraryMakesTheSameMapByThePapersRecipe) {
   const std::string map = scratch_ / "map.ply";
   ASSERT_EQ(run_odosplat(words(map, {"--preset", "paper", "--budget", "2000"})).status, 0);
-  apps::SequenceViews views({sequence_}, {}, 3, {});
+  apps::SequenceViews views({Sequence::open(sequence_)}, 3, {});
   TrainerOptions options = TrainerOptions::preset("paper", views.count());
   options.iterations = 120;
   options.densify.budget = 2000;

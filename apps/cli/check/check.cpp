@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <opencv2/imgproc.hpp>
-#include <vector>
 
 #include "apps/cli/check/check_camera.hpp"
+#include "apps/cli/check/check_data.hpp"
 #include "apps/cli/check/check_report.hpp"
-#include "apps/command/interrupt.hpp"
 #include "apps/command/no_result.hpp"
 #include "apps/command/number_flags.hpp"
 #include "apps/command/output.hpp"
 #include "apps/command/support.hpp"
 #include "apps/input/cloud_files.hpp"
 #include "apps/input/sequence_flags.hpp"
-#include "odosplat/core/checksum.hpp"
 #include "odosplat/core/error.hpp"
-#include "odosplat/core/formatted.hpp"
-#include "odosplat/core/progress.hpp"
 #include "odosplat/eval/convention_check.hpp"
-#include "odosplat/eval/texture.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
 namespace odosplat::apps {
@@ -35,94 +27,6 @@ struct CheckFlags {
   std::string json;
   bool keep_going = false;
 };
-
-ConventionReport check_depth(const Sequence& sequence, const Camera& camera, const std::vector<std::size_t>& frames,
-                             const ConventionOptions& options) {
-  ConventionInput input;
-  input.camera = camera;
-  input.fy_sign = sequence.fy_sign();
-  input.depth_scale = sequence.depth_scale();
-  for (const std::size_t i : frames) input.T_world_camera.push_back(sequence.T_world_depth(i));
-  input.depth = [&](std::size_t k) {
-    if (interrupted()) throw Interrupted();
-    return sequence.depth(frames[k]);
-  };
-  return check_conventions(input, options);
-}
-
-CloudCheckReport check_with_cloud(const Sequence& sequence, const CheckFlags& flags) {
-  CloudCheckInput input;
-  input.camera = sequence.camera();
-  input.fy_sign = sequence.fy_sign();
-  for (std::size_t i = 0; i < sequence.size(); ++i) input.T_world_camera.push_back(sequence.T_world_camera(i));
-  input.gray = [&](std::size_t i) {
-    if (interrupted()) throw Interrupted();
-    return sequence.gray(i);
-  };
-  input.cloud = read_cloud(flags.cloud, flags.voxel, false);
-  Progress progress("check", 100);
-  input.progress = [&](double share) { progress.update(std::lround(100.0 * share)); };
-  CloudCheckReport report = check_cloud(input);
-  progress.finish();
-  return report;
-}
-
-/// Texture of up to 100 images, evenly spaced over the sequence and resized to the size at which shares are compared.
-TextureSummary texture_of(const Sequence& sequence) {
-  constexpr std::size_t most = 100;
-  const cv::Size size(320, 240);
-  const std::size_t step = std::max<std::size_t>(1, sequence.size() / most);
-  std::vector<TextureStatistic> statistics;
-  for (std::size_t i = 0; i < sequence.size(); i += step) {
-    if (interrupted()) throw Interrupted();
-    GrayImage gray = sequence.gray(i);
-    if (gray.size() != size) cv::resize(gray, gray, size, 0.0, 0.0, cv::INTER_AREA);
-    statistics.push_back(texture_statistic(gray));
-  }
-  return summarise_texture(statistics);
-}
-
-/// Checksum of every file that the sequence lists and of its true poses as read.
-std::string checksum_of(const Sequence& sequence) {
-  Checksum sum;
-  for (std::size_t i = 0; i < sequence.size(); ++i) {
-    if (interrupted()) throw Interrupted();
-    for (const std::string& file : {sequence.color_file(i), sequence.depth_file(i)}) {
-      if (!file.empty()) sum.add(read_file(file, max_data_bytes));
-    }
-  }
-  for (const StampedPose& pose : sequence.truth()) {
-    const Eigen::Vector3d t = pose.T_world_camera.translation();
-    const Eigen::Vector3d r = so3_log(pose.T_world_camera.rotation());
-    sum.add(formatted("%.6f %.6f %.6f %.6f %.6f %.6f %.6f\n", pose.time, t.x(), t.y(), t.z(), r.x(), r.y(), r.z()));
-  }
-  return sum.text();
-}
-
-/// Measures the camera where poses and fy are as declared and depth is of the colour camera: through depth of another one
-/// the images would ask for a wrong focal length. A wrong camera can look like images that are numbered by one from
-/// their poses: if it is found wrong, the conventions are judged with the one that the images ask for.
-void check_camera_by_depth(const Sequence& sequence, const std::vector<std::size_t>& frames, const CheckFlags& flags,
-                           CheckResults& results) {
-  const ConventionReport& given = *results.conventions;
-  const bool posed = given.believable && given.winner.fy_sign == given.declared.fy_sign &&
-                     given.winner.inverted == given.declared.inverted &&
-                     given.winner.depth_scale == given.declared.depth_scale;
-  if (!posed || results.registration->registered == false) return;
-  // Poses of data with a negative fy are reflected, as other commands read them.
-  SequenceFlags as_read = flags.sequence;
-  as_read.options.as_stored = false;
-  results.camera = measure_camera(sequence.fy_sign() < 0 ? open_sequence(as_read) : sequence);
-  if (given.as_declared || !results.camera->measured) return;
-  const bool wrong = std::any_of(results.camera->findings.begin(), results.camera->findings.end(),
-                                 [](const CameraFinding& f) { return f.right == false && f.part != "time offset"; });
-  if (!wrong) return;
-  const ConventionReport again =
-      check_depth(sequence, results.camera->state.corrected(sequence.camera()), frames, flags.conventions);
-  if (!again.as_declared) return;
-  results.conventions = again;
-  results.with_measured_camera = true;
-}
 
 void print_depth(const Sequence& sequence, const CheckResults& results) {
   const ConventionReport& report = *results.conventions;
@@ -167,13 +71,11 @@ void run(CheckFlags flags) {
         sequence.size(), frames.size(), sequence.camera().width, sequence.camera().height);
   CheckResults results;
   if (!frames.empty()) {
-    results.conventions = check_depth(sequence, sequence.camera(), frames, flags.conventions);
-    results.registration = depth_registration(sequence);
-    check_camera_by_depth(sequence, frames, flags, results);
+    check_by_depth(sequence, flags.sequence, flags.conventions, results);
     print_depth(sequence, results);
   }
   if (!flags.cloud.empty()) {
-    results.cloud = check_with_cloud(sequence, flags);
+    results.cloud = check_by_cloud(sequence, read_cloud(flags.cloud, flags.voxel, false));
     print_cloud(sequence, *results.cloud);
   }
   results.texture = texture_of(sequence);

@@ -17,7 +17,7 @@
 #include "apps/command/output.hpp"
 #include "apps/input/cloud_files.hpp"
 #include "apps/input/map_formats.hpp"
-#include "apps/input/training_frames.hpp"
+#include "apps/input/sequence_flags.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
@@ -28,30 +28,6 @@
 
 namespace odosplat::apps {
 namespace {
-
-TrainerOptions trainer_options(const TrainJob& job, int views) {
-  TrainerOptions options = TrainerOptions::preset(job.preset, views);
-  options.iterations = job.iterations.value_or(options.iterations);
-  options.seed = job.seed;
-  if (!job.densify.empty()) options.densify.method = densify_method(job.densify);
-  if (job.budget > 0) options.densify.budget = job.budget;
-  if (job.exposure == "on") options.exposure.rate = 1e-3;
-  if (job.exposure == "off") options.exposure.rate = 0.0;
-  options.depth.weight = job.depth_weight.value_or(options.depth.weight);
-  if (is_splat_path(job.out)) options.rasterizer.order = BlendOrder::depth;
-  if (!job.blend_order.empty()) options.rasterizer.order = blend_order(job.blend_order);
-  job.options.apply(options);
-  return options;
-}
-
-InitializeOptions initialize_options(const TrainJob& job) {
-  InitializeOptions options = InitializeOptions::preset(job.preset);
-  options.budget = job.budget;
-  options.seed = job.seed;
-  options.sh_degree = job.sh_degree.value_or(options.sh_degree);
-  job.options.apply(options);
-  return options;
-}
 
 std::string progress_text(const TrainingStep& step, const TrainingReport& report) {
   // The report's mean over images: the PSNR of a single image depends on its brightness. 0: no image has been seen at
@@ -113,17 +89,6 @@ void run(const TrainJob& job, Trainer& trainer) {
     log_info("stopped after iteration " + std::to_string(trainer.iteration()) + "; --resume goes on from " +
              checkpoint_file(job) + "; no map is written");
   throw Interrupted();
-}
-
-TrainingFacts facts_of(const TrainJob& job, const SequenceViews& views) {
-  TrainingFacts facts;
-  facts.usual_iterations = TrainerOptions::preset(job.preset, views.count()).iterations;
-  facts.budget = job.budget;
-  for (const auto& [name, value] : job.options.items()) facts.notes.push_back("option " + name + " " + value);
-  const FrameRange range = job.frames.empty() ? FrameRange() : parse_frames(job.frames);
-  for (const Sequence& sequence : views.sequences())
-    facts.notes.push_back(training_frames_line(sequence, job.every, range));
-  return facts;
 }
 
 nlohmann::ordered_json json_of_views(const std::vector<ViewQuality>& qualities, const SequenceViews& views) {
@@ -207,8 +172,9 @@ TrainOutcome run_training(const Common& common, const TrainJob& job) {
   check_extension(job.out, map_extensions);
   const MadeFolders made = ensure_output_file(job.out);
   const MadeFolders made_for_report = ensure_output_if_given(job.report);
-  SequenceViews views(job.sequences, job.sequence_options, job.every,
-                      job.frames.empty() ? FrameRange() : parse_frames(job.frames));
+  std::vector<Sequence> sequences;
+  for (const std::string& path : job.sequences) sequences.push_back(open_sequence(path, job.sequence_options));
+  SequenceViews views(std::move(sequences), job.every, job.frames.empty() ? FrameRange() : parse_frames(job.frames));
   const TrainerOptions options = trainer_options(job, views.count());
   options.check();
   const TrainingStart prepared = prepare(job, initial, views);

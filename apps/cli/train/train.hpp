@@ -10,11 +10,14 @@
 #include "apps/command/support.hpp"
 #include "apps/input/public_options.hpp"
 #include "apps/input/sequence_flags.hpp"
+#include "odosplat/splat/map_training.hpp"
 #include "odosplat/splat/quality/map_quality.hpp"
 #include "odosplat/splat/train/initialize.hpp"
 #include "odosplat/splat/train/trainer.hpp"
 
 namespace odosplat::apps {
+
+class SequenceViews;
 
 struct TrainJob {
   std::vector<std::string> sequences;  // all in one world frame
@@ -44,6 +47,13 @@ struct TrainOutcome {
   TrainingReport training;
   MapQuality quality;
 };
+
+/// The preset's options with the job's changes. views: number of images.
+TrainerOptions trainer_options(const TrainJob& job, int views);
+InitializeOptions initialize_options(const TrainJob& job);
+
+/// What the map's header says of the job and its frames.
+TrainingFacts facts_of(const TrainJob& job, const SequenceViews& views);
 
 /// Trains a map from a cloud and posed images, writes it to OUT, evaluates it, and writes the report if requested.
 /// Checkpoints go to OUT.checkpoint, which is removed at the end; failing to write one is a warning, and the next one

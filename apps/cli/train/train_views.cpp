@@ -2,7 +2,8 @@
 // Copyright 2026 The odosplat authors
 #include "apps/cli/train/train_views.hpp"
 
-#include "apps/input/sequence_flags.hpp"
+#include <utility>
+
 #include "apps/input/unreadable_frames.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
@@ -28,16 +29,15 @@ std::vector<std::string> image_faults(const Sequence& sequence, const std::vecto
 
 }  // namespace
 
-SequenceViews::SequenceViews(const std::vector<std::string>& paths, const SequenceOptions& options, int every,
-                             const FrameRange& range) {
+SequenceViews::SequenceViews(std::vector<Sequence> sequences, int every, const FrameRange& range)
+    : sequences_(std::move(sequences)) {
   UnreadableFrames unreadable;
-  for (const std::string& path : paths) {
-    sequences_.push_back(open_sequence(path, options));
-    const std::vector<std::size_t> frames = posed_frames(sequences_.back(), every, range);
-    const std::vector<std::string> faults = image_faults(sequences_.back(), frames);
+  for (std::size_t s = 0; s < sequences_.size(); ++s) {
+    const std::vector<std::size_t> frames = posed_frames(sequences_[s], every, range);
+    const std::vector<std::string> faults = image_faults(sequences_[s], frames);
     for (std::size_t k = 0; k < frames.size(); ++k) {
       if (faults[k].empty()) {
-        frames_.push_back({sequences_.size() - 1, frames[k]});
+        frames_.push_back({s, frames[k]});
       } else {
         unreadable.add(faults[k]);
       }

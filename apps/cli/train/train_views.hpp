@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/input/sequence_flags.hpp"
+#include "apps/input/frame_range.hpp"
 #include "odosplat/io/sequence/sequence.hpp"
 #include "odosplat/splat/train/training_targets.hpp"
 
@@ -16,8 +16,7 @@ namespace odosplat::apps {
 class SequenceViews : public TrainingViews {
  public:
   /// Reads every image once to check it. InputError for a sequence that cannot be read or has no such frame.
-  SequenceViews(const std::vector<std::string>& paths, const SequenceOptions& options, int every,
-                const FrameRange& range);
+  SequenceViews(std::vector<Sequence> sequences, int every, const FrameRange& range);
 
   int count() const override { return static_cast<int>(frames_.size()); }
   Camera camera(int i) const override { return sequence(i).camera(); }
