@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "odosplat/core/error.hpp"
+#include "odosplat/core/formatted.hpp"
 
 namespace odosplat::apps {
 
@@ -40,8 +41,8 @@ std::vector<std::size_t> posed_frames(const Sequence& sequence, int every, const
 std::string training_frames_line(const Sequence& sequence, int every, const FrameRange& range) {
   const auto step = static_cast<std::size_t>(every);
   const std::size_t begin = (std::min(range.begin, sequence.size()) + step - 1) / step * step;
-  return std::string(training_frames_word) + " " + std::to_string(step) + " " + std::to_string(begin) + " " +
-         std::to_string(std::min(range.end, sequence.size())) + " " + std::to_string(sequence.size()) + " " +
+  return formatted("%s %zu %zu %zu %zu ", training_frames_word, step, begin, std::min(range.end, sequence.size()),
+                   sequence.size()) +
          sequence.name();
 }
 
