@@ -53,11 +53,23 @@ py::list options() {
   return list;
 }
 
+/// pybind11 before 2.12 reads arrays of numpy 2 at wrong places, without an error.
+void require_numpy_that_fits() {
+#if PYBIND11_VERSION_HEX < 0x020C0000
+  const auto version = py::module_::import("numpy").attr("__version__").cast<std::string>();
+  if (std::stoi(version) < 2) return;
+  const std::string fault = "odosplat was built with a pybind11 before 2.12, which needs numpy 1; here is numpy " +
+                            version + ": install numpy<2, or build odosplat by pip";
+  throw py::import_error(fault.c_str());
+#endif
+}
+
 }  // namespace
 }  // namespace odosplat::python
 
 PYBIND11_MODULE(_core, m) {
   using namespace odosplat::python;
+  require_numpy_that_fits();
   m.attr("version") = ODOSPLAT_VERSION;
   bind_errors(m);
   bind_devices(m);
