@@ -77,7 +77,7 @@ def test_the_page_s_code_runs(demo, tmp_path):
         except ImportError:
             code = FAKE_CV2 + code.replace("import cv2\n", "")
         code = code.replace("cv2.VideoCapture(0)", f'cv2.VideoCapture({str(demo.sequence / "rgb/%06d.png")!r})')
-    code = code.replace("odosplat.train(", "odosplat.train(iterations=100, sequences=", 1)
+    code = code.replace("odosplat.train(mapping, ", "odosplat.train(mapping, iterations=100, voxel=0.08, cloud=", 1)
     path = tmp_path / "page.py"
     path.write_text(code)
     done = subprocess.run(
