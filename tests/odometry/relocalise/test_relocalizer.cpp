@@ -81,7 +81,8 @@ TEST_F(RelocalizerTest, SaysHowSureItIs) {
     EXPECT_GT(answer.probability, 0.99);
     const Vector6d error = (test::room_path(k) * answer.T_world_camera.inverse()).log();
     EXPECT_LT(error.dot(answer.covariance.ldlt().solve(error)), 60.0) << k;
-    EXPECT_LT(answer.covariance.topLeftCorner<3, 3>().trace(), 0.01 * 0.01) << k;
+    const Eigen::Matrix3d of_position = answer.covariance.topLeftCorner<3, 3>();
+    EXPECT_LT(of_position.trace(), 0.05 * 0.05) << k;
   }
 }
 
