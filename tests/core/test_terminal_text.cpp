@@ -88,8 +88,8 @@ TEST(InputError, AZeroByteDoesNotEndTheLine) {
 
 TEST(InputError, QuotedLineEndsDoNotBreakTheLine) {
   const std::string longer(200, 'k');
-  EXPECT_EQ(InputError("f.yaml", "two\nlines", "is not a known key").what(),
-            std::string("f.yaml: two\\x0alines: is not a known key"));
+  EXPECT_EQ(InputError("f.yaml", longer + "\nlines", "is not a known key").what(),
+            "f.yaml: " + longer + "\\x0alines: is not a known key");
   EXPECT_EQ(InputError(InputError("f.txt", "a\tb `" + longer + "`").what()).what(),
             "f.txt: a\\x09b `" + longer + "`");  // as it was: it is cut when it is shown
 }

@@ -19,22 +19,5 @@ TEST(MotionModel, VelocityLeadsFromTheLastPoseToThisOne) {
   EXPECT_GT(velocity.norm(), 0.1);
 }
 
-TEST(MotionModel, VelocityFollowsAnEvenAcceleration) {
-  // Turning and moving along one axis, so that the velocities of all times commute.
-  const auto path = [](double t) {
-    const double way = 0.4 * t + 1.5 * t * t;
-    return SE3(so3_exp({0.0, 0.0, way}), {0.0, 0.0, 2.0 * way});
-  };
-  MotionHistory history;
-  history.add(0.00, path(0.00));
-  history.add(0.03, path(0.03));
-  const Vector6d velocity = velocity_at(history, 0.08, path(0.08));
-  const double speed = 0.4 + 3.0 * 0.08;
-  Vector6d expected;
-  expected << 0.0, 0.0, -2.0 * speed, 0.0, 0.0, -speed;
-  EXPECT_LT((velocity - expected).norm(), 1e-9);
-  EXPECT_GT((velocity_to(history, 0.08, path(0.08)) - expected).norm(), 0.1);
-}
-
 }  // namespace
 }  // namespace odosplat

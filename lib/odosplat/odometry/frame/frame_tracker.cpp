@@ -83,7 +83,7 @@ TrackedFrame FrameTracker::track(const PosedFrame& frame) {
 std::shared_ptr<const FramePyramid> FrameTracker::with_predicted_rows(const PosedFrame& frame) const {
   const double readout = frame.image.taken->cameras.front().readout;
   if (readout == 0.0 || lost_ || !(steps_ahead(history_, frame.time) > 0.0)) return frame.image.taken;
-  const Vector6d velocity = velocity_at(history_, frame.time, predict(history_, frame.time));
+  const Vector6d velocity = velocity_to(history_, frame.time, predict(history_, frame.time));
   return std::make_shared<FramePyramid>(with_row_motion(*frame.image.taken, readout * velocity));
 }
 
@@ -91,7 +91,7 @@ void FrameTracker::measure_rows(TrackedFrame& tracked) const {
   EvenFrame& image = tracked.frame.image;
   if (image.taken->row_motion.isZero(0.0)) return;
   const SE3 T_world_camera = reference().T_world_camera * tracked.alignment.T_target_host.inverse();
-  const Vector6d velocity = velocity_at(history_, tracked.frame.time, T_world_camera);
+  const Vector6d velocity = velocity_to(history_, tracked.frame.time, T_world_camera);
   const double readout = image.taken->cameras.front().readout;
   image.taken = std::make_shared<FramePyramid>(with_row_motion(*image.taken, readout * velocity));
   image = make_even(image.taken, image.row_gain);

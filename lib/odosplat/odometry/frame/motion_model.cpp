@@ -43,14 +43,6 @@ Vector6d velocity_to(const MotionHistory& history, double time, const SE3& T_wor
   return (T_world_camera.inverse() * history.last).log() / (time - history.last_time);
 }
 
-Vector6d velocity_at(const MotionHistory& history, double time, const SE3& T_world_camera) {
-  const Vector6d now = velocity_to(history, time, T_world_camera);
-  const double before_s = history.last_time - history.previous_time;
-  const Vector6d before = (history.last.inverse() * history.previous).log() / before_s;
-  const double since_s = time - history.last_time;
-  return now + since_s / (since_s + before_s) * (now - before);
-}
-
 std::vector<SE3> motion_guesses(const MotionHistory& history, double time, const SE3& T_world_keyframe) {
   const double s = steps_ahead(history, time);
   std::vector<SE3> guesses{continued(history, s)};

@@ -36,10 +36,6 @@ double steps_ahead(const MotionHistory& history, double time);
 /// time must be later than the last pose's.
 Vector6d velocity_to(const MotionHistory& history, double time, const SE3& T_world_camera);
 
-/// Velocity of the camera at `time`, of the same kind: the mean since the last pose, carried on by the change from the
-/// mean before it. steps_ahead() must be above 0.
-Vector6d velocity_at(const MotionHistory& history, double time, const SE3& T_world_camera);
-
 /// Guesses for the pose at `time`, best first: constant velocity, twice and half of it, standing still, and the pose of
 /// `keyframe`. Source: DSO's list of motion hypotheses.
 std::vector<SE3> motion_guesses(const MotionHistory& history, double time, const SE3& T_world_keyframe);
