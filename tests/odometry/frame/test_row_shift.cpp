@@ -50,7 +50,7 @@ class RowShiftTest : public testing::Test {
 
 TEST_F(RowShiftTest, PutsAPointWhereItsOwnRowSeesIt) {
   const RowShift<double> rows(camera_, row_motion_);
-  for (const Eigen::Vector3d p : {Eigen::Vector3d(0.5, 0.6, 1.5), {-0.7, -1.2, 3.0}, {0.0, 0.0, 2.0}}) {
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(0.5, 0.6, 1.5), {-0.7, -1.2, 3.0}, {0.0, 0.0, 2.0}}) {
     const Eigen::Vector3d q = rows.at(p);
     const double s = camera_.time_of_row(camera_.project(q).y());
     EXPECT_LT((q - SE3::exp(s * row_motion_) * p).norm(), 2e-5);
