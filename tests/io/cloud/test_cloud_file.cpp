@@ -101,15 +101,15 @@ TEST(CloudFile, FormatsThatAreNotReadAreNamed) {
     return error_of([&] { parse_point_cloud(name, bytes); });
   };
   EXPECT_THAT(fault("a.spz", "\x1f\x8b\x08"),
-              HasSubstr("a.spz: is a map in SPZ, which is not read: convert it to PLY"));
-  EXPECT_THAT(fault("a.bin", "NGSP"), HasSubstr("is a map in SPZ"));
-  EXPECT_THAT(fault("a.SOG", "PK\x03\x04"), HasSubstr("is a map in SOG, which is not read: convert it to PLY"));
+              HasSubstr("a.spz: is a map of Gaussians in SPZ: `odosplat convert` makes a PLY of it"));
+  EXPECT_THAT(fault("a.bin", "NGSP"), HasSubstr("is a map of Gaussians in SPZ"));
+  EXPECT_THAT(fault("a.SOG", "PK\x03\x04"), HasSubstr("is a map of Gaussians in SOG"));
   EXPECT_THAT(fault("a.ksplat", "x"), HasSubstr("KSPLAT"));
   EXPECT_THAT(fault("a.ply.gz", "\x1f\x8b\x08"), HasSubstr("is compressed (gzip)"));
   EXPECT_THAT(fault("a.zip", "PK\x03\x04"), HasSubstr("is a ZIP archive"));
   EXPECT_THAT(fault("a.e57", "ASTM-E57"), HasSubstr("E57"));
   EXPECT_THAT(error_of([] { cloud_of("property uint packed_position\nproperty uint packed_color\n", "1 2\n", 1); }),
-              HasSubstr("c.ply: is a compressed PLY (SuperSplat), which is not read: export it uncompressed"));
+              HasSubstr("c.ply: is a packed PLY (SuperSplat), a map of Gaussians"));
 }
 
 TEST(CloudFile, PropertiesMayComeInAnyOrderAndType) {
