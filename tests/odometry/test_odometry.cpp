@@ -91,7 +91,8 @@ TEST_F(OdometryTest, FollowsThePathWithoutColours) {
 }
 
 TEST_F(OdometryTest, FollowsThePathOfARollingShutter) {
-  const auto path = [](double k) { return test::room_path(3.0 * k); };
+  // From rest, as the motion is not known at the first image, to twice the usual speed.
+  const auto path = [](double k) { return test::room_path(k * k / 90.0); };
   const auto error = [&](double taken_s, double told_s) {
     Camera taken = camera_;
     taken.readout = taken_s;
@@ -102,17 +103,19 @@ TEST_F(OdometryTest, FollowsThePathOfARollingShutter) {
     for (int k = 0; k < 90; ++k) {
       odometry.track(world_.gray(taken, [&](double s) { return path(k + 30.0 * s); }), k / 30.0);
     }
-    EXPECT_EQ(odometry.statistics().lost, 0) << taken_s << " " << told_s;
+    if (taken_s == told_s) {
+      EXPECT_EQ(odometry.statistics().lost, 0) << taken_s;
+    }
     double squares = 0.0;
     for (const StampedPose& pose : odometry.trajectory()) {
       squares += (path(pose.time * 30.0).inverse() * pose.T_world_camera).translation().squaredNorm();
     }
-    return std::sqrt(squares / 90.0);
+    return std::sqrt(squares / static_cast<double>(odometry.trajectory().size()));
   };
-  const double still = error(0.0, 0.0);
   for (const double readout : {0.02, -0.02}) {
-    EXPECT_LT(error(readout, readout), 1.5 * still) << readout;
-    EXPECT_GT(error(readout, 0.0), 5.0 * still) << readout;
+    const double told = error(readout, readout);
+    EXPECT_LT(told, 0.002) << readout;
+    EXPECT_GT(error(readout, 0.0), 5.0 * told) << readout;
   }
 }
 
