@@ -16,7 +16,7 @@ namespace {
 
 TEST(FitInput, ReadsEveryImageOnce) {
   const apps_test::ScratchFolder scratch;
-  apps_test::write_tiny_sequence(scratch / "seq", 3);
+  apps_test::write_tiny_sequence(scratch / "seq", 30);
   const Sequence sequence = Sequence::open((scratch / "seq").string());
   const CameraFitInput input = camera_fit_input(sequence);
   const cv::Mat1f gray = input.gray(0);
