@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "apps/python/arrays.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -165,17 +166,19 @@ py::array_t<double> array_of(const Matrix6d& matrix) {
 py::array array_of(const cv::Mat1f& image) { return array_of_image(image, {image.rows, image.cols}); }
 py::array array_of(const cv::Mat3f& image) { return array_of_image(image, {image.rows, image.cols, 3}); }
 
-std::vector<float> floats_from(const py::handle& value, const std::string& name, std::size_t width) {
+std::vector<float> floats_from(const py::handle& value, const std::string& name,
+                               const std::vector<py::ssize_t>& shape) {
   const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(value);
   if (!array) {
     PyErr_Clear();
     throw InputError(name, "must be an array of numbers");
   }
-  const bool fits = width == 1 ? array.ndim() == 1
-                               : array.ndim() >= 2 && array.size() == array.shape(0) * static_cast<py::ssize_t>(width);
-  if (!fits)
-    throw InputError(name,
-                     "must have " + std::to_string(width) + " numbers for each Gaussian, is " + shape_text(array));
+  const auto dimensions = static_cast<py::ssize_t>(shape.size()) + 1;
+  if (array.ndim() != dimensions || !std::equal(shape.begin(), shape.end(), array.shape() + 1)) {
+    std::string wanted = "[N";
+    for (const py::ssize_t size : shape) wanted += " x " + std::to_string(size);
+    throw InputError(name, "must be " + wanted + "], is " + shape_text(array));
+  }
   return {array.data(), array.data() + array.size()};
 }
 

@@ -41,8 +41,8 @@ py::array_t<double> array_of(const Matrix6d& matrix);
 py::array array_of(const cv::Mat1f& image);
 py::array array_of(const cv::Mat3f& image);
 
-/// float32 [N x width], row by row; copied.
-std::vector<float> floats_from(const py::handle& value, const std::string& name, std::size_t width);
+/// float32 [N x shape...], row by row; copied.
+std::vector<float> floats_from(const py::handle& value, const std::string& name, const std::vector<py::ssize_t>& shape);
 /// A read-only array over memory that `owner` holds.
 py::array view_of(const std::vector<float>& data, const std::vector<py::ssize_t>& shape, const py::handle& owner);
 
@@ -65,7 +65,7 @@ struct RawImage {
 RawImage image_from(const py::handle& value, ColorOrder order, const cv::Size& size, const std::string& name);
 /// As the readers of image files convert it, to the bit. Grey images have equal channels.
 ColorImage color_of(const RawImage& image);
-/// Of a grey image its values, of a colour image their luma.
+/// Of a grey float32 image its values, of others the luma of color_of, as grey image files are read.
 GrayImage gray_of(const RawImage& image);
 /// float32 [H x W] in metres, 0 = none.
 DepthImage depth_from(const py::handle& value, const cv::Size& size, const std::string& name);

@@ -63,6 +63,7 @@ cv::Mat1f vignette_of(const CameraFile& file) {
 CameraFile camera_from(const py::handle& camera, const std::string& name) {
   CameraFile file;
   file.camera = pinhole_from(camera, name);
+  file.camera.readout = attribute<double>(camera, "line_time", name) * file.camera.height;
   file.fy_sign = attribute<int>(camera, "fy_sign", name);
   if (file.fy_sign != 1 && file.fy_sign != -1) throw InputError(name, "fy_sign", "must be 1 or -1");
   file.distortion = attribute<std::vector<double>>(camera, "distortion", name);
@@ -92,6 +93,7 @@ py::dict fields_of(const CameraFile& file) {
   fields["fy_sign"] = file.fy_sign;
   fields["depth_scale"] = file.has_depth_scale ? py::object(py::float_(file.depth_scale)) : py::none();
   fields["time_offset"] = file.time_offset;
+  fields["line_time"] = file.camera.readout / file.camera.height;
   fields["gamma"] = file.gamma;
   fields["vignette"] = file.vignette;
   fields["depth_camera"] = py::none();

@@ -22,9 +22,12 @@
 namespace odosplat::python {
 namespace {
 
+/// Of a file's name, which is read without the interpreter's lock, or of arrays.
 PointCloud cloud_of(const py::object& value) {
-  if (py::isinstance<py::bytes>(value)) return apps::read_cloud(value.cast<std::string>(), 0.0, false);
-  return cloud_from(value, "cloud");
+  if (!py::isinstance<py::bytes>(value)) return cloud_from(value, "cloud");
+  const auto file = value.cast<std::string>();
+  const py::gil_scoped_release unlocked;
+  return apps::read_cloud(file, 0.0, false);
 }
 
 /// The JSON of `odosplat check`.

@@ -19,10 +19,8 @@ ColorImage color_of(const RawImage& image) {
 }
 
 GrayImage gray_of(const RawImage& image) {
-  if (!image.is_gray()) return to_gray(color_of(image));
-  GrayImage gray;
-  image.pixels.convertTo(gray, CV_32F, image.pixels.depth() == CV_8U ? 1.0 / 255.0 : 1.0);
-  return gray;
+  if (!image.is_gray() || image.pixels.depth() == CV_8U) return to_gray(color_of(image));
+  return image.pixels;
 }
 
 }  // namespace odosplat::python

@@ -33,17 +33,16 @@ Held from_arrays(const py::object& positions, const py::object& log_scales, cons
                  const py::object& opacity_logits, const py::object& sh, const std::vector<std::string>& notes) {
   Map map;
   Gaussians& g = map.gaussians;
-  g.opacity_logits = floats_from(opacity_logits, "opacity_logits", 1);
-  g.positions = floats_from(positions, "positions", 3);
-  g.log_scales = floats_from(log_scales, "log_scales", 3);
-  g.rotations = floats_from(rotations, "rotations", 4);
+  g.opacity_logits = floats_from(opacity_logits, "opacity_logits", {});
+  g.positions = floats_from(positions, "positions", {3});
+  g.log_scales = floats_from(log_scales, "log_scales", {3});
+  g.rotations = floats_from(rotations, "rotations", {4});
   const py::array array = py::array::ensure(sh);
-  if (!array || array.ndim() != 3) {
-    PyErr_Clear();
-    throw InputError("sh", "must be [N x K x 3]");
-  }
-  for (g.sh_degree = 0; g.sh_degree < 3 && sh_coefficients(g.sh_degree) < array.shape(1);) ++g.sh_degree;
-  g.sh = floats_from(sh, "sh", static_cast<std::size_t>(3 * g.coefficients()));
+  if (!array) PyErr_Clear();
+  const py::ssize_t coefficients = array && array.ndim() == 3 ? array.shape(1) : 0;
+  for (g.sh_degree = 0; g.sh_degree < 3 && g.coefficients() < coefficients;) ++g.sh_degree;
+  if (g.coefficients() != coefficients) throw InputError("sh", "must be [N x K x 3] with K = 1, 4, 9 or 16");
+  g.sh = floats_from(sh, "sh", {coefficients, 3});
   g.check();
   if (g.empty()) throw InputError("positions", "holds no Gaussian");
   const auto stride = [&](const std::vector<float>& values) { return values.size() / g.size(); };

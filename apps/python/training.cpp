@@ -100,8 +100,10 @@ apps::TrainJob job_from(const py::dict& settings, const std::vector<std::string>
   take("blend_order", job.blend_order);
   take("voxel", job.voxel);
   take("remove_outliers", job.remove_outliers);
-  if (const py::object exposure = settings["exposure"]; !exposure.is_none())
+  if (const py::object exposure = settings["exposure"]; !exposure.is_none()) {
+    if (!py::isinstance<py::bool_>(exposure)) throw InputError("exposure", "must be True, False or None");
     job.exposure = exposure.cast<bool>() ? "on" : "off";
+  }
   require(job.every >= 1, "every", "at least 1, is " + std::to_string(job.every));
   require(!job.iterations || *job.iterations >= 0, "iterations", "at least 0");
   if (const apps::FrameRange range = frames_from(settings["frames"]); !settings["frames"].is_none()) {

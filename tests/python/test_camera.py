@@ -33,6 +33,25 @@ def test_a_depth_camera_comes_back(tmp_path):
     assert np.allclose(read.depth_camera.T_color_depth, T)
 
 
+@pytest.mark.parametrize("line_time", [3.1e-5, -2.5e-5])
+def test_a_rolling_shutter_comes_back(line_time, tmp_path):
+    camera = odosplat.Camera(640, 480, 525, 525, 320, 240, depth_scale=1000.0, line_time=line_time)
+    path = tmp_path / "camera.yaml"
+    camera.write(path)
+    assert "line_time" in path.read_text()
+    read = odosplat.Camera.read(path)
+    assert read.line_time == pytest.approx(line_time, rel=1e-12)
+    assert dataclasses.replace(read, line_time=line_time) == camera
+
+
+def test_a_sequence_has_its_rolling_shutter(demo, tmp_path):
+    given = dataclasses.replace(odosplat.Camera.read(demo.sequence / "camera.yaml"), line_time=1e-4)
+    given.write(tmp_path / "camera.yaml")
+    sequence = odosplat.Sequence(demo.sequence, camera=tmp_path / "camera.yaml")
+    assert sequence.camera.line_time == pytest.approx(1e-4)
+    assert sequence.camera_file.line_time == pytest.approx(1e-4)
+
+
 def test_a_vignette_is_found_beside_the_file(tmp_path):
     (tmp_path / "camera.yaml").write_text(
         "width: 4\nheight: 4\nfx: 4\nfy: 4\ncx: 1.5\ncy: 1.5\nvignette: white.png\n"
@@ -53,6 +72,8 @@ def test_a_vignette_is_found_beside_the_file(tmp_path):
         ({"distortion": (-5.0, 0.0, 0.0, 0.0)}, "distortion"),
         ({"fy_sign": 2}, "fy_sign"),
         ({"fps": -1.0}, "fps"),
+        ({"line_time": 0.1}, "line_time"),
+        ({"line_time": "slow"}, "line_time"),
     ],
 )
 def test_implausible_cameras_are_refused(change, words):

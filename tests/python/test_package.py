@@ -44,6 +44,7 @@ def test_everything_public_is_documented():
                     assert member.__doc__ or part in ("statistics", "has_depth"), f"{name}.{part}"
 
 
+@pytest.mark.skipif(not os.environ.get("ODOSPLAT_MYPY"), reason="ODOSPLAT_MYPY is not set")
 def test_the_stubs_pass_mypy():
     pytest.importorskip("mypy")
     done = subprocess.run(

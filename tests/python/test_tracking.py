@@ -122,6 +122,18 @@ def test_a_matrix_starts_like_seven_numbers(demo, demo_map, sequence, tracked):
     assert np.allclose(pose.T_world_camera, tracked[1][0].T_world_camera, atol=1e-5)
 
 
+def test_grey_bytes_are_converted_as_grey_files_are(demo, demo_map, sequence):
+    """They give the same bits as three equal channels."""
+    found = []
+    for channels in (1, 3):
+        tracker = odosplat.Tracker(demo_map, sequence.camera, first_pose(demo))
+        for i in range(3):
+            image = np.rint(255 * sequence.gray(i)).astype(np.uint8)
+            pose = tracker.track(image if channels == 1 else np.stack([image] * 3, axis=-1), sequence.time(i))
+        found.append(pose.T_world_camera)
+    assert np.array_equal(*found)
+
+
 def test_an_image_of_another_place_is_lost(demo, demo_map, sequence):
     noise = np.random.default_rng(3).random((120, 160), np.float32)
     pose = odosplat.Tracker(demo_map, sequence.camera, "auto").track(noise, 0.0)

@@ -63,6 +63,8 @@ def test_bad_settings_are_named(demo, sequence):
         ({"options": {"train.color_rate": "fast"}}, "must be a number"),
         ({"seed": -1}, "seed"),
         ({"budget": -5}, "budget"),
+        ({"exposure": "on"}, "exposure: must be True, False or None"),
+        ({"exposure": 1}, "exposure: must be True, False or None"),
     ):
         with pytest.raises(odosplat.InputError) as error:
             odosplat.train(sequence, demo.cloud, **settings)
@@ -112,7 +114,8 @@ def test_other_threads_run_meanwhile(demo, sequence):
 
 
 INTERRUPTED = """
-import sys, odosplat
+import signal, sys, odosplat
+signal.signal(signal.SIGINT, signal.default_int_handler)
 try:
     odosplat.train(odosplat.Sequence(sys.argv[1]), sys.argv[2], voxel=0.1, every=30, iterations=1000000,
                    progress=lambda step, *_: step == 2 and print("running", flush=True))
@@ -131,7 +134,7 @@ def test_ctrl_c_ends_training(demo):
         sent = time.monotonic()
         process.send_signal(signal.SIGINT)
         assert process.stdout.readline() == "interrupted\n"
-        assert time.monotonic() - sent < 10.0
+        assert time.monotonic() - sent < 60.0
         assert process.wait(30) == 0
     finally:
         process.kill()

@@ -58,13 +58,13 @@ CameraState significant(const CameraFit& fit, const Camera& declared) {
   for (int k = 0; k < CameraState::size; ++k) {
     if (std::abs(state[k]) <= least_sigmas * fit.sigma[k]) state[k] = 0.0;
   }
-  // A camera that is said to take all rows at once becomes one with a rolling shutter only if that is sure: tracking
-  // with the motion of its rows costs time.
+  // What has changed is written as a rolling shutter only if that is sure: tracking with the motion of the rows costs
+  // time.
   constexpr double sure_sigmas = 4.0;
   constexpr double least_readout = 0.005;  // [s]
   double& readout = state[CameraState::at_readout];
   const double enough = std::max(least_readout, sure_sigmas * fit.sigma[CameraState::at_readout]);
-  if (declared.readout == 0.0 && std::abs(readout) < enough) readout = 0.0;
+  if (readout != 0.0 && std::abs(declared.readout + readout) < enough) readout = -declared.readout;
   return CameraState::from(state);
 }
 

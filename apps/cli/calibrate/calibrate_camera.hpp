@@ -26,8 +26,7 @@ struct CalibrationRequest {
 CameraFit measure_calibration(const Sequence& sequence, const CalibrationRequest& request,
                               const std::function<MapView&()>& map, const std::function<void(double)>& progress);
 
-/// The declared camera with what of the fit is significant. Warns if the poses fit the declared camera better, or if it
-/// has a rolling shutter. NoResult if images, depth and poses agree with no camera, or if there is no such lens.
+/// The declared camera with what of the fit is significant. Warns if the poses fit the declared camera better. NoResult if images, depth and poses agree with no camera, or if there is no such lens.
 CameraFile calibrated_camera(const Sequence& sequence, const CameraFit& fit);
 
 }  // namespace odosplat::apps

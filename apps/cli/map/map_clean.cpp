@@ -27,7 +27,7 @@ struct CleanFlags {
 
 std::vector<Floater> find(const Common& common, const CleanFlags& flags, const Map& map) {
   if (flags.seen_by.sequence.path.empty()) return find_floaters(map.gaussians);
-  const std::vector<EditView> views = read_seen_by(flags.seen_by);
+  const std::vector<EditView> views = read_seen_by(flags.seen_by, true);
   const compute::Context device = open_device(common);
   Progress progress("clean", static_cast<long>(views.size()));
   std::vector<Floater> floaters = find_floaters(device, map, views, {}, [&](std::size_t k) {
@@ -41,6 +41,7 @@ std::vector<Floater> find(const Common& common, const CleanFlags& flags, const M
 
 void run(const Common& common, const CleanFlags& flags) {
   constexpr double usual_share = 0.05;
+  constexpr double usual_isolated_share = 0.01;
   check_extension(flags.out, map_extensions);
   const MadeFolders made = ensure_output_file(flags.out);
   const Map map = read_map(flags.map);
@@ -55,6 +56,12 @@ void run(const Common& common, const CleanFlags& flags) {
     log_warning(flags.out +
                 formatted(": %.0f %% of the map is removed, more than floats in a usual map: ", 100.0 * share) +
                 "look at both (view map, eval-depth) before it is used");
+  }
+  const double isolated =
+      static_cast<double>(counts[static_cast<std::size_t>(Floater::isolated)]) / static_cast<double>(floaters.size());
+  if (isolated > usual_isolated_share) {
+    log_warning(flags.out + formatted(": %.1f %% of the map is removed as isolated: ", 100.0 * isolated) +
+                "sparse, distant surfaces may be among them");
   }
 }
 

@@ -17,6 +17,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/formatted.hpp"
 #include "odosplat/core/progress.hpp"
+#include "odosplat/core/terminal_text.hpp"
 #include "odosplat/splat/edit/crop.hpp"
 #include "odosplat/splat/edit/edited_header.hpp"
 #include "odosplat/splat/edit/kept_gaussians.hpp"
@@ -42,7 +43,7 @@ std::vector<double> numbers_of(const std::string& flag, const std::string& text,
   std::replace(blanks.begin(), blanks.end(), ',', ' ');
   std::istringstream in(blanks);
   std::vector<double> numbers;
-  const InputError wrong(flag, "must be \"" + names + "\", is \"" + text + "\"");
+  const InputError wrong(flag, "must be \"" + names + "\", is \"" + printable_line(text) + "\"");
   for (std::string word; in >> word;) {
     std::istringstream one(word);
     double value = 0.0;
@@ -53,12 +54,20 @@ std::vector<double> numbers_of(const std::string& flag, const std::string& text,
   return numbers;
 }
 
+std::vector<double> numbers_of_box(const CropFlags& flags) {
+  return numbers_of("--box", flags.box, 6, "x0 y0 z0 x1 y1 z1");
+}
+
+std::vector<double> numbers_of_T(const CropFlags& flags) {
+  return numbers_of("--T", flags.T_world_box, 7, "tx ty tz qx qy qz qw");
+}
+
 CropBox box_of(const CropFlags& flags) {
-  const std::vector<double> v = numbers_of("--box", flags.box, 6, "x0 y0 z0 x1 y1 z1");
+  const std::vector<double> v = numbers_of_box(flags);
   CropBox box{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, SE3()};
   try {
     if (!flags.T_world_box.empty()) {
-      const std::vector<double> t = numbers_of("--T", flags.T_world_box, 7, "tx ty tz qx qy qz qw");
+      const std::vector<double> t = numbers_of_T(flags);
       box.T_world_box = SE3(rotation_from_text(Eigen::Quaterniond(t[6], t[3], t[4], t[5])), {t[0], t[1], t[2]});
     }
     box.check();
@@ -69,9 +78,16 @@ CropBox box_of(const CropFlags& flags) {
   return box;
 }
 
+std::string words_of(const std::vector<double>& numbers) {
+  std::string words;
+  for (const double number : numbers) words += formatted(" %.10g", number);
+  return words;
+}
+
+/// Of the numbers: the text of a flag may hold a line break, which would end the header's line.
 std::string box_words(const CropFlags& flags) {
-  return std::string(flags.outside ? "outside of" : "inside of") + " box " + flags.box +
-         (flags.T_world_box.empty() ? "" : " at " + flags.T_world_box);
+  return std::string(flags.outside ? "outside of" : "inside of") + " box" + words_of(numbers_of_box(flags)) +
+         (flags.T_world_box.empty() ? "" : " at" + words_of(numbers_of_T(flags)));
 }
 
 std::vector<bool> choose(const Common& common, const CropFlags& flags, const Map& map, std::string& words) {
@@ -81,7 +97,7 @@ std::vector<bool> choose(const Common& common, const CropFlags& flags, const Map
     words = box_words(flags);
     return keep;
   }
-  const std::vector<EditView> views = read_seen_by(flags.seen_by);
+  const std::vector<EditView> views = read_seen_by(flags.seen_by, false);
   words = "seen by " + seen_by_words(flags.seen_by, views.size());
   if (flags.margin > 0.0) words += formatted(", margin %g m", flags.margin);
   const compute::Context device = open_device(common);

@@ -59,8 +59,9 @@ std::optional<InputFrame> LiveFrames::next(const std::function<bool()>& stopped)
   constexpr double nap = 0.05;  // [s]
   std::optional<LiveFrame> taken;
   do {
-    if (stopped() || source_.ended()) return std::nullopt;
-    taken = source_.take(nap);
+    if (stopped()) return std::nullopt;
+    taken = source_.take(nap);  // throws what ended the source
+    if (!taken && source_.ended()) return std::nullopt;
   } while (!taken);
   InputFrame frame;
   frame.number = taken->number;

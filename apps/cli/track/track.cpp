@@ -24,6 +24,7 @@
 #include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
 #include "odosplat/io/atomic_file.hpp"
+#include "odosplat/io/video/live_address.hpp"
 
 namespace odosplat::apps {
 namespace {
@@ -291,6 +292,7 @@ void add_track(CLI::App& app, Common& common) {
     job->options = OptionValues(*settings, groups);
     job->relocalise = *relocalise == "on";
     if (!anchor->empty()) job->anchor = *anchor == "on";
+    job->live_source = live_kind(job->sequence.path) != LiveKind::none;
     check_flags_of_method(job->method, job->map, job->depth_noise);
     const TrackOutcome o = track_sequence(common, *job);
     print_outcome(*job, o);

@@ -11,7 +11,6 @@
 #include "apps/input/public_options.hpp"
 #include "apps/input/sequence_flags.hpp"
 #include "odosplat/core/trajectory.hpp"
-#include "odosplat/io/video/live_address.hpp"
 
 namespace odosplat::apps {
 
@@ -40,7 +39,9 @@ struct TrackJob {
   std::uint64_t seed = 3141592;  // of the pixel selector and of depth noise
   OptionValues options;          // of odometry and relocaliser, applied after the method's
 
-  bool is_live() const { return live_kind(sequence.path) != LiveKind::none; }
+  bool live_source = false;  // sequence.path is one; asked once, as a camera may be unplugged later
+
+  bool is_live() const { return live_source; }
   bool finds_start() const { return start == "auto" || (start.empty() && is_live()); }
   bool in_real_time() const { return realtime || is_live(); }
 };

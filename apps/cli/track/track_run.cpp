@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <utility>
 
@@ -25,7 +26,8 @@ double milliseconds_since(std::chrono::steady_clock::time_point when) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - when).count();
 }
 
-bool runs(const std::future<void>& task) {
+template <typename T>
+bool runs(const std::future<T>& task) {
   return task.valid() && task.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
 }
 
@@ -105,7 +107,8 @@ TrackFacts TrackRun::facts(bool finished) const {
 
 TrackOutcome TrackRun::write(bool finished) {
   if (writing_.valid()) writing_.wait();
-  if (part_.valid()) part_.wait();
+  for (int attempt = 0; attempt < 2 && !part_is_written(); ++attempt) write_part();
+  if (!part_is_written()) log_warning(part_->folder + ": cannot be written: these results are lost");
   const OdometryResults results = results_of(odometry_);
   const TrackFacts now = facts(finished);
   record_.write(job_, results, now);
@@ -152,18 +155,32 @@ void TrackRun::note_written(bool ok, double seconds) {
 
 /// Moves all but the newest results into a folder of their own. Their poses are final from here on.
 void TrackRun::put_aside() {
-  if (runs(part_) || (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)) {
-    return;  // later: the disk is slow
+  if (runs(writing_part_) || runs(writing_)) return;  // later: the disk is slow
+  if (!part_is_written()) {
+    write_part();  // again: a full disk may have space now; meanwhile the record grows
+    return;
   }
   const auto results = std::make_shared<const OdometryResults>(results_of(odometry_));
   const auto old = std::make_shared<const TrackRecord>(record_.take_out(*part_frames_));
   odometry_.forget(record_.first_time());
-  const std::string folder = part_folder(job_.out, ++parts_);
-  part_ = std::async(std::launch::async, [old, results, folder] {
+  part_ = Part{old, results, part_folder(job_.out, ++parts_)};
+  write_part();
+}
+
+/// Waits for the part that is being written; true if none is left.
+bool TrackRun::part_is_written() {
+  if (writing_part_.valid() && writing_part_.get()) part_.reset();
+  return !part_;
+}
+
+void TrackRun::write_part() {
+  writing_part_ = std::async(std::launch::async, [part = *part_] {
     try {
-      old->write_tables(folder, *results, Durability::synced);
-    } catch (const InputError& e) {
-      log_warning(std::string(e.what()) + "; the results of this part are lost");
+      part.record->write_tables(part.folder, *part.results, Durability::synced);
+      return true;
+    } catch (const std::exception& e) {
+      log_warning(part.folder + ": " + e.what() + "; it is tried again");
+      return false;
     }
   });
 }

@@ -52,8 +52,18 @@ class TrackRun {
   bool warned_of_camera_ = false;
   const double cpu_before_ = cpu_seconds();
   const std::optional<std::size_t> part_frames_;  // none: the results are not put aside
+  /// Results that have left the record.
+  struct Part {
+    std::shared_ptr<const TrackRecord> record;
+    std::shared_ptr<const OdometryResults> results;
+    std::string folder;
+  };
+  bool part_is_written();
+  void write_part();
+
   std::size_t parts_ = 0;
-  std::future<void> part_;  // being written
+  std::optional<Part> part_;        // not written yet
+  std::future<bool> writing_part_;  // whether it could be written
   struct Written {
     bool ok;
     double seconds;

@@ -20,6 +20,7 @@
 #include "apps/command/html_text.hpp"
 #include "apps/command/number_flags.hpp"
 #include "apps/command/output.hpp"
+#include "apps/input/map_formats.hpp"
 #include "apps/input/sequence_flags.hpp"
 #include "apps/input/truth.hpp"
 #include "odosplat/core/error.hpp"
@@ -77,6 +78,12 @@ void check_used(const WebFlags& flags) {
   if (flags.sequence.empty() && flags.truth.sequence.path.empty()) {
     if (!flags.truth.frames.empty()) throw InputError("--frames", "needs --sequence or --truth");
     if (!flags.truth.sequence.options.layout.empty()) throw InputError("--layout", "needs --sequence or --truth");
+    if (flags.truth.sequence.options.max_image_pixels != SequenceOptions().max_image_pixels) {
+      throw InputError("--max-image-pixels", "needs --sequence or --truth");
+    }
+    if (flags.poses.empty() && !flags.truth.sequence.options.camera_file.empty()) {
+      throw InputError("--camera", "needs --sequence, --poses or --truth");
+    }
   }
   if (flags.truth.sequence.path.empty() && flags.alignment != "none") throw InputError("--align", "needs --truth");
   if (flags.poses.empty() && !flags.times.empty()) throw InputError("--times", "needs --poses");
@@ -259,7 +266,7 @@ void add_view_web(CLI::App* view, Common& common) {
   CLI::App* command =
       add_command(*view, common, "web", "a page for the browser: the map, paths, images and errors in one HTML file");
   auto flags = std::make_shared<WebFlags>();
-  command->add_option("--map", flags->map, "map of Gaussians (PLY, as train writes it, or .splat)")->required();
+  command->add_option("--map", flags->map, std::string("map of Gaussians (") + map_formats + ")")->required();
   command->add_option("--poses", flags->poses, "estimated trajectories: files, or folders that track wrote")
       ->type_name("FILE|FOLDER");
   command->add_option("--times", flags->times, "times of --poses, one a line, for formats without times");

@@ -38,7 +38,9 @@ class Camera:
     ``Sequence`` have none.
     fps [1/s], 0: not given. fy_sign: -1 if the file has a negative fy, so that poses are reflected as they are read.
     depth_scale: units of a 16-bit depth image per metre, None: the layout's. time_offset [s]: an image was taken this much
-    after its stamp. gamma of the response, 0: not given. vignette: an image file, "": none.
+    after its stamp. line_time [s per row] of a rolling shutter: from one row to the next, negative if the last row is taken
+    first, 0: all rows at once; a time and a pose are those of the middle row. gamma of the response, 0: not given.
+    vignette: an image file, "": none.
     depth_camera: None if depth images are registered to the colour images.
 
     Raises InputError for an implausible camera.
@@ -55,6 +57,7 @@ class Camera:
     fy_sign: int = 1
     depth_scale: Optional[float] = None
     time_offset: float = 0.0
+    line_time: float = 0.0
     gamma: float = 0.0
     vignette: str = ""
     depth_camera: Optional[DepthCamera] = None
@@ -69,7 +72,10 @@ class Camera:
         return camera_of(_core.read_camera(path_bytes(path)))
 
     def write(self, path: PathLike) -> None:
-        """Writes a camera.yaml, whole or not at all; read() gives back the same numbers (depth_scale None: 1000)."""
+        """Writes a camera.yaml, whole or not at all.
+
+        read() gives back the same numbers (depth_scale None: 1000; line_time: to rounding).
+        """
         _core.write_camera(path_bytes(path), self)
 
     @property

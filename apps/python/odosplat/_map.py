@@ -38,7 +38,7 @@ class Map:
 
     @classmethod
     def read(cls, path: PathLike) -> Map:
-        """Reads a PLY file of Gaussians (of any program for 3D Gaussian Splatting) or a .splat."""
+        """Reads Gaussians of any program for 3D Gaussian Splatting: .ply, packed .ply, .splat, .spz, .glb, .gltf or .sog."""
         return cls(_core.read_map(path_bytes(path)))
 
     @classmethod
@@ -55,7 +55,7 @@ class Map:
         return cls(_core.map_from_arrays(positions, log_scales, rotations, opacity_logits, sh, list(notes)))
 
     def write(self, path: PathLike) -> None:
-        """Writes a PLY (the same bits are read back) or, by the name's extension, a .splat; whole or not at all."""
+        """Writes a .ply, .splat, .spz or .glb, by the name's extension, whole or not at all; only .ply keeps all bits."""
         self._held.write(path_bytes(path))
 
     def __len__(self) -> int:

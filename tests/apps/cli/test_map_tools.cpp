@@ -65,6 +65,9 @@ TEST_F(MapTools, CropsByBox) {
   EXPECT_LE(info_of(at("in.ply"))["bounds_m"]["most"][0], 3.2);
   EXPECT_THAT(std::string(info_of(at("out.ply"))["edits"][0]), HasSubstr("crop: outside of box -9 -9 -9 3.2 9 9, "));
   EXPECT_EQ(info_of(at("in.ply"))["places"], info_of(map_)["places"]);
+  // A line break in the flag is none in the header.
+  ASSERT_EQ(map_tool({"crop", map_, "--box", "-9 -9 -9\n3.2 9,9", "--out", at("lines.ply")}).status, 0);
+  EXPECT_THAT(std::string(info_of(at("lines.ply"))["edits"][0]), HasSubstr("crop: inside of box -9 -9 -9 3.2 9 9, "));
   // The same box, described on axes that are turned by 90 degrees about z.
   const RunResult turned = map_tool(
       {"crop", map_, "--box", "-9 -3.2 -9 9 9 9", "--T", "0 0 0 0 0 0.70710678 0.70710678", "--out", at("turned.ply")});
@@ -90,6 +93,14 @@ TEST_F(MapTools, CropRefusesWhatMakesNoSense) {
   const RunResult no_camera = crop({"--seen-by", sequence_ + "/groundtruth.txt"});
   EXPECT_EQ(no_camera.status, 2);
   EXPECT_THAT(no_camera.err, HasSubstr("--camera"));
+  std::string reflected = read_text(sequence_ + "/camera.yaml");
+  const std::size_t fy = reflected.find("fy:");
+  ASSERT_NE(fy, std::string::npos);
+  reflected.insert(reflected.find_first_not_of(' ', fy + 3), "-");
+  write_text(at("reflected.yaml"), reflected);
+  const RunResult mirror = crop({"--seen-by", sequence_ + "/groundtruth.txt", "--camera", at("reflected.yaml")});
+  EXPECT_EQ(mirror.status, 2);
+  EXPECT_THAT(mirror.err, HasSubstr("reflected.yaml: has a negative fy"));
   EXPECT_FALSE(std::filesystem::exists(at("x.ply")));
 }
 
@@ -167,6 +178,27 @@ TEST_F(MapTools, CleansAndCountsByReason) {
     EXPECT_GE(size_of(at("clean.ply")), good * 99 / 100);
     EXPECT_THAT(std::string(info_of(at("clean.ply"))["edits"][0]), HasSubstr("clean: 1 almost transparent, "));
   }
+}
+
+TEST_F(MapTools, CleanWarnsWhereMuchIsIsolated) {
+  Map sparse = read_map(map_);
+  const std::size_t good = sparse.gaussians.size();
+  const std::size_t count = good / 50;
+  sparse.gaussians.resize(good + count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t place[3] = {k % 5, k / 5 % 5, k / 25};
+    for (std::size_t a = 0; a < 3; ++a) {
+      sparse.gaussians.positions[3 * (good + k) + a] = 10.0F + 2.0F * static_cast<float>(place[a]);
+      sparse.gaussians.log_scales[3 * (good + k) + a] = -3.5F;
+    }
+    sparse.gaussians.rotations[4 * (good + k)] = 1.0F;
+    sparse.gaussians.opacity_logits[good + k] = 2.0F;
+  }
+  write_map(at("sparse.ply"), sparse);
+  const RunResult cleaned = map_tool({"clean", at("sparse.ply"), "--out", at("clean.ply")});
+  ASSERT_EQ(cleaned.status, 0) << cleaned.err;
+  EXPECT_THAT(cleaned.err, HasSubstr("sparse, distant surfaces may be among them"));
+  EXPECT_EQ(map_tool({"clean", map_, "--out", at("good.ply")}).err.find("sparse, distant"), std::string::npos);
 }
 
 }  // namespace

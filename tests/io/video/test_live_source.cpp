@@ -30,7 +30,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 LiveOptions quick(double reconnect = 0.0) {
   LiveOptions options;
   options.open_timeout = 2.0;
-  options.stall_timeout = 0.4;
+  options.stall_timeout = 3.0;
   options.reconnect = reconnect;
   return options;
 }
@@ -133,7 +133,9 @@ TEST_F(LivePipe, ThatFallsSilentEnds) {
     while (!stop_) std::this_thread::sleep_for(milliseconds(5));
   });
   testing::internal::CaptureStderr();
-  LiveSource source(path_, quick(0.5));
+  LiveOptions options = quick(0.5);
+  options.stall_timeout = 0.4;
+  LiveSource source(path_, options);
   source.start();
   const Clock::time_point start = Clock::now();
   while (!source.ended()) source.take(0.05);
@@ -233,7 +235,9 @@ TEST(LiveNetwork, ThatFallsSilentIsLost) {
     close(client);
   });
   testing::internal::CaptureStderr();
-  LiveSource source(server.address(), quick());
+  LiveOptions options = quick();
+  options.stall_timeout = 0.4;
+  LiveSource source(server.address(), options);
   source.start();
   const Clock::time_point start = Clock::now();
   while (!source.ended()) source.take(0.05);

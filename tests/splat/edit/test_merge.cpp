@@ -144,6 +144,11 @@ TEST(MergeMaps, RefusesMapsOfDifferentFramesAndWarnsOfSmallShifts) {
   }
   const MergedMap near = merge_maps({{"a", map}, {"b", test::moved(map, {0.022F, 0, 0})}});
   EXPECT_THAT(near.warnings, Contains(HasSubstr("different frames")));
+  // Walls are out of reach, floor and ceiling agree.
+  const MergedMap along_floor = merge_maps({{"a", map}, {"b", test::moved(map, {0.5F, 0, 0})}});
+  EXPECT_THAT(along_floor.warnings, Contains("b: surfaces that face x do not meet: the maps may be of different frames "
+                                             "(align)"));
+  EXPECT_FALSE(along_floor.overlaps[0].unmet[2]);
   Map elsewhere = test::moved(map, {100.0F, 0, 0});
   EXPECT_THAT(merge_maps({{"a", map}, {"b", elsewhere}}).warnings, Contains(HasSubstr("holds no surface")));
 }

@@ -12,7 +12,7 @@ namespace odosplat {
 
 /// Data that decompress to at most this many times their own size are accepted without a further check. Larger ones are
 /// made to fill the memory: DEFLATE reaches 1032, zstd more, and quantised maps stay below 50.
-inline constexpr std::uint64_t most_compression = 1024;
+inline constexpr std::uint64_t most_compression = 128;
 
 /// InputError(file, fault) if `declared` bytes are more than `stored` bytes can reasonably decompress to. To be called
 /// with the sizes that a header declares, before memory for them is allocated.

@@ -74,7 +74,7 @@ LiveKind live_kind(const std::string& source) {
   if (behind_scheme(source) != std::string::npos) return LiveKind::network;
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(source, error);
-  if (std::filesystem::is_fifo(status) || std::filesystem::is_socket(status)) return LiveKind::pipe;
+  if (std::filesystem::is_fifo(status)) return LiveKind::pipe;
   return std::filesystem::is_character_file(status) ? LiveKind::device : LiveKind::none;
 }
 

@@ -158,7 +158,8 @@ std::string CameraMisfit::likely_cause(const Camera& camera) const {
     default:
       const double readout = camera.readout + found.readout;
       return formatted("the images look as if their rows were taken one after the other, within %.0f ms%s",
-                       1000.0 * std::abs(readout), readout > 0.0 ? " (rolling shutter)" : ", the last one first");
+                       1000.0 * std::abs(readout), readout >= 0.0 ? " (rolling shutter)" : ", the last one first") +
+             (camera.readout == 0.0 ? "" : formatted("; the camera file says %.0f ms", 1000.0 * camera.readout));
   }
 }
 

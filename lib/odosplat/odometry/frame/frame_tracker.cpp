@@ -82,7 +82,10 @@ TrackedFrame FrameTracker::track(const PosedFrame& frame) {
 
 std::shared_ptr<const FramePyramid> FrameTracker::with_predicted_rows(const PosedFrame& frame) const {
   const double readout = frame.image.taken->cameras.front().readout;
-  if (readout == 0.0 || lost_ || !(steps_ahead(history_, frame.time) > 0.0)) return frame.image.taken;
+  // Images that are said to be closer in time than half the readout have times of arrival, not of exposure: the motion
+  // between them says nothing about their rows.
+  const bool timed = frame.time - history_.last_time > 0.5 * std::abs(readout);
+  if (readout == 0.0 || lost_ || !timed || !(steps_ahead(history_, frame.time) > 0.0)) return frame.image.taken;
   const Vector6d velocity = velocity_to(history_, frame.time, predict(history_, frame.time));
   return std::make_shared<FramePyramid>(with_row_motion(*frame.image.taken, readout * velocity));
 }

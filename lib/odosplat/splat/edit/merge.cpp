@@ -107,6 +107,11 @@ void judge(const std::string& name, const MergeOverlap& overlap, const MergeOpti
   } else if (overlap.sigmas > options.warn_sigmas) {
     warnings.push_back(name + ": " + apart);
   }
+  for (std::size_t axis = 0; axis < overlap.unmet.size(); ++axis) {
+    if (!overlap.unmet[axis]) continue;
+    warnings.push_back(name + ": surfaces that face " + "xyz"[axis] +
+                       " do not meet: the maps may be of different frames (align)");
+  }
   if (std::abs(overlap.gray) > options.most_gray) {
     refuse(name, light, options.force, warnings);
   } else if (std::abs(overlap.gray) > options.warn_gray) {

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "odosplat/splat/edit/merge_layer.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,6 +57,39 @@ Subset solid_subset(const MergeLayer& layer, const std::vector<bool>& usable) {
     subset.rows.push_back(i);
   }
   return subset;
+}
+
+int facing(const Eigen::Vector3f& normal) {
+  int axis = 0;
+  normal.cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
+bool is_surface(const MergeLayer& layer, std::size_t i) { return layer.solid[i] != 0 && layer.flat[i] != 0; }
+
+Eigen::AlignedBox3f bounds_of_surfaces(const MergeLayer& layer) {
+  Eigen::AlignedBox3f bounds;
+  for (std::size_t i = 0; i < layer.size(); ++i) {
+    if (is_surface(layer, i)) bounds.extend(layer.points[i]);
+  }
+  return bounds;
+}
+
+/// Of a layer's surfaces in a box, by the axis that they face.
+struct Facing {
+  std::array<std::size_t, 3> all{};
+  std::array<std::size_t, 3> paired{};
+};
+template <typename IsPaired>
+Facing count_facing(const MergeLayer& layer, const Eigen::AlignedBox3f& box, const IsPaired& is_paired) {
+  Facing counts;
+  for (std::size_t i = 0; i < layer.size(); ++i) {
+    if (!is_surface(layer, i) || !box.contains(layer.points[i])) continue;
+    const auto axis = static_cast<std::size_t>(facing(layer.normals[i]));
+    ++counts.all[axis];
+    if (is_paired(i)) ++counts.paired[axis];
+  }
+  return counts;
 }
 
 bool is_covered(const MergeLayer& layer, std::size_t i, const MergeLayer& other, const Subset& subset,
@@ -164,7 +198,7 @@ MergeOverlap compare_surfaces(const MergeLayer& layer, const MergeLayer& other) 
     std::array<int, merge_neighbors> near{};
     std::array<float, merge_neighbors> squared{};
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      if (layer.solid[i] == 0 || layer.flat[i] == 0) continue;
+      if (!is_surface(layer, i)) continue;
       const int found = search.nearest(layer.points[i], merge_neighbors, near.data(), squared.data());
       float least_across = std::numeric_limits<float>::infinity();
       for (int k = 0; k < found; ++k) {
@@ -178,9 +212,7 @@ MergeOverlap compare_surfaces(const MergeLayer& layer, const MergeLayer& other) 
             distance > std::max(search_sigmas * sigma, search_spacings * other.spacings[j]))
           continue;
         least_across = across;
-        int axis = 0;
-        other.normals[j].cwiseAbs().maxCoeff(&axis);
-        pairs[i] = {axis, distance, distance / sigma, layer.gray[i] - other.gray[j]};
+        pairs[i] = {facing(other.normals[j]), distance, distance / sigma, layer.gray[i] - other.gray[j]};
       }
     }
   });
@@ -205,6 +237,14 @@ MergeOverlap compare_surfaces(const MergeLayer& layer, const MergeLayer& other) 
     if (median <= overlap.sigmas) continue;
     overlap.sigmas = median;
     overlap.distance_m = static_cast<double>(upper_median(std::move(distances)));
+  }
+  // A shift beyond the reach of the search leaves walls without partners, but floor and ceiling meet.
+  const Eigen::AlignedBox3f box = bounds_of_surfaces(layer).intersection(bounds_of_surfaces(other));
+  const Facing mine = count_facing(layer, box, [&](std::size_t i) { return pairs[i].axis >= 0; });
+  const Facing theirs = count_facing(other, box, [](std::size_t) { return false; });
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    overlap.unmet[axis] = std::min(mine.all[axis], theirs.all[axis]) >= least_pairs &&
+                          static_cast<double>(mine.paired[axis]) < least_share * static_cast<double>(mine.all[axis]);
   }
   return overlap;
 }

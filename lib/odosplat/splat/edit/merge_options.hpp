@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 namespace odosplat {
@@ -31,6 +32,8 @@ struct MergeOverlap {
   double distance_m = 0.0;  // median distance along the normals, on the faces (x, y or z) where it is largest in sigmas
   double sigmas = 0.0;      // the same over sigma
   double gray = 0.0;        // median of its brightness minus theirs, 0..1
+  // Surfaces that face x, y or z: both have some in the box that holds parts of both, but hardly any is the same.
+  std::array<bool, 3> unmet{};
 };
 
 }  // namespace odosplat

@@ -118,7 +118,9 @@ int degree_of_attributes(const Json& attributes) {
 
 /// Standard deviations, or their logarithms in files of the extension's drafts.
 void take_scales(const Document& document, std::vector<float> scales, Gaussians& g) {
-  const bool are_logarithms = std::any_of(scales.begin(), scales.end(), [](float s) { return s < 0.0F; });
+  // A few broken values do not change the meaning of the others: those Gaussians are left out later.
+  const auto below = std::count_if(scales.begin(), scales.end(), [](float s) { return s < 0.0F; });
+  const bool are_logarithms = 10 * below > static_cast<std::ptrdiff_t>(scales.size());
   if (are_logarithms) {
     log_warning(document.name() + ": has sizes below 0: they are read as logarithms, which drafts of " +
                 gltf::extension + " stored");

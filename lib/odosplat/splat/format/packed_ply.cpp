@@ -67,6 +67,17 @@ float harmonic_of(std::uint8_t byte) {
   return sh_range * (share - 0.5F);
 }
 
+/// A column that must be of type T, as its bits are unpacked. type: PLY's name of it.
+template <typename T>
+std::vector<T> packed_column(const Ply& ply, const std::string& element, const std::string& property,
+                             const char* type) {
+  const PlyColumn* column = ply.element(element).find(property);
+  if (column != nullptr && !std::holds_alternative<std::vector<T>>(*column)) {
+    throw InputError(ply.file, element, property + " must be of type " + type);
+  }
+  return ply.column<T>(element, property);
+}
+
 void unpack_harmonics(const Ply& ply, Gaussians& g) {
   if (!ply.has(sh_element)) return;
   const PlyElement& element = ply.element(sh_element);
@@ -89,7 +100,7 @@ void unpack_harmonics(const Ply& ply, Gaussians& g) {
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t j = 1; j < k; ++j) {
       const std::vector<std::uint8_t> column =
-          ply.column<std::uint8_t>(sh_element, "f_rest_" + std::to_string(c * (k - 1) + j - 1));
+          packed_column<std::uint8_t>(ply, sh_element, "f_rest_" + std::to_string(c * (k - 1) + j - 1), "uchar");
       for (std::size_t i = 0; i < g.size(); ++i) sh[3 * (k * i + j) + c] = harmonic_of(column[i]);
     }
   }
@@ -103,7 +114,7 @@ bool is_packed_ply(const Ply& ply) {
 }
 
 Gaussians gaussians_from_packed_ply(const Ply& ply) {
-  const auto word = [&](const char* name) { return ply.column<std::uint32_t>(packed_element, name); };
+  const auto word = [&](const char* name) { return packed_column<std::uint32_t>(ply, packed_element, name, "uint"); };
   const std::vector<std::uint32_t> positions = word("packed_position");
   const std::vector<std::uint32_t> rotations = word("packed_rotation");
   const std::vector<std::uint32_t> scales = word("packed_scale");

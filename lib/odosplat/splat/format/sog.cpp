@@ -133,8 +133,12 @@ class SogFiles {
 
   /// Every image is read before the first is decoded, so that their sizes are known.
   void load(const std::string& file) {
-    std::string content = archive_ ? archive_->read(file, max_data_bytes) : (*read_sibling_)(file);
+    const bool loaded =
+        std::any_of(contents_.begin(), contents_.end(), [&](const auto& content) { return content.first == file; });
+    if (loaded) return;
+    std::string content = archive_ ? archive_->read(file, most_bytes() - loaded_) : (*read_sibling_)(file);
     if (!archive_) stored_ += content.size();
+    loaded_ += content.size();
     contents_.emplace_back(file, std::move(content));
   }
 
@@ -156,9 +160,13 @@ class SogFiles {
   }
 
  private:
+  /// Of all images of an archive together, as stored in it: WebP is compressed already, so that DEFLATE gains little.
+  std::uint64_t most_bytes() const { return 16 * std::uint64_t{bytes_->size()} + (1U << 20U); }
+
   std::string name_;
   const std::string* bytes_;
   const ReadSibling* read_sibling_;
+  std::uint64_t loaded_ = 0;
   std::unique_ptr<ZipArchive> archive_;
   std::vector<std::pair<std::string, std::string>> contents_;
   std::size_t stored_ = 0;
@@ -168,7 +176,7 @@ class SogReader {
  public:
   SogReader(Meta meta, SogFiles& files) : meta_(std::move(meta)), files_(files) {
     const Json version = meta_.json().value("version", Json());
-    is_first_ = version.is_null();
+    is_first_ = version.is_null() || version == 1;
     if (!is_first_ && version != 2) throw InputError(meta_.name(), "version", "is not read: only 1 and 2 are");
     count_ = is_first_ ? meta_.whole(first_of(meta_.at("means", "shape")), "means.shape", most_count)
                        : meta_.whole(meta_.json().value("count", Json()), "count", most_count);

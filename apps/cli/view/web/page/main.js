@@ -157,7 +157,7 @@ class Page {
     else if ('123'.includes(key) && !element(`mode-${modes[key - 1]}`).hidden) this.chooseMode(modes[key - 1]);
     else if (key === 'p') this.set({paths: !state.paths});
     else if (key === 'o') element('overview').click();
-    else if (key === 'c' && this.data.images.length > 0) {
+    else if (key === 'c' && this.data.images.length > 0 && !element('mode-follow').hidden) {
       this.set({mode: 'follow', compare: comparisons[(comparisons.indexOf(state.compare) + 1) % comparisons.length]});
     } else if (key === '?') element('keys').showModal();
     else return false;
