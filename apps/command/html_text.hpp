@@ -15,7 +15,4 @@ std::string html_escaped(std::string_view text);
 /// The JSON must be valid.
 std::string json_for_html(std::string_view json);
 
-/// RFC 4648, with padding.
-std::string base64(std::string_view bytes);
-
 }  // namespace odosplat::apps

@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "apps/benchmark/report/report_formats.hpp"
 #include "apps/command/html_text.hpp"
+#include "odosplat/core/base64.hpp"
 #include "odosplat/io/atomic_file.hpp"
 
 namespace odosplat::apps {

@@ -11,6 +11,7 @@
 
 #include "apps/cli/view/web/web_page.hpp"
 #include "apps/command/html_text.hpp"
+#include "odosplat/core/base64.hpp"
 #include "odosplat/splat/map_file.hpp"
 #include "tests/apps/run_program.hpp"
 #include "tests/apps/tiny_world.hpp"

@@ -8,6 +8,7 @@
 
 #include "apps/command/html_text.hpp"
 #include "apps/command/json_text.hpp"
+#include "odosplat/core/base64.hpp"
 
 namespace odosplat::apps {
 namespace {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "odosplat/core/base64.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/formatted.hpp"
 #include "odosplat/io/atomic_file.hpp"
@@ -87,20 +88,6 @@ std::string pdf_of(const cv::Mat3b& rgb) {
                  compressed_rows(encoded(".png", rgb)));
   pdf.add_stream("", "q " + w + " 0 0 " + h + " 0 0 cm /Picture Do Q");
   return pdf.finish();
-}
-
-std::string base64(std::string_view bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8U | (k < here ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= here ? digits[group >> (18 - 6 * k) & 0x3FU] : '=';
-  }
-  return text;
 }
 
 std::string svg_of(const cv::Mat3b& rgb) {
