@@ -44,18 +44,9 @@ py::dict fields_of(const Camera& camera) {
 py::dict read_camera(const std::string& path) {
   CameraFile file = read_camera_file(path);
   if (!file.vignette.empty()) {
-    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-    file.vignette = (folder / file.vignette).lexically_normal().string();
+    file.vignette = std::filesystem::absolute(vignette_path(file, path)).lexically_normal().string();
   }
   return python::fields_of(file);
-}
-
-cv::Mat1f vignette_of(const CameraFile& file) {
-  if (file.vignette.empty()) return {};
-  cv::Mat1f vignette = read_vignette(file.vignette);
-  if (vignette.cols != file.camera.width || vignette.rows != file.camera.height)
-    throw InputError(file.vignette, "is not of the camera's size");
-  return vignette;
 }
 
 }  // namespace
@@ -109,16 +100,13 @@ py::dict fields_of(const CameraFile& file) {
 ImageInput::ImageInput(const CameraFile& camera, ColorOrder order)
     : camera_(camera.camera),
       order_(order),
-      undistorter_(camera.camera, camera.distortion),
-      photometric_(camera.gamma > 0.0 ? camera.gamma : 1.0, vignette_of(camera)),
-      plain_(undistorter_.is_identity() && camera.vignette.empty()) {}
+      correction_(camera, vignette_of(camera, "camera", ImageLimit::default_max_pixels)) {}
 
-ColorImage ImageInput::color(const RawImage& image) const {
-  const ColorImage color = color_of(image);
-  return plain_ ? color : undistorter_.color(photometric_.apply(color, 1.0));
+ColorImage ImageInput::color(const RawImage& image) const { return correction_.color(color_of(image)); }
+
+GrayImage ImageInput::gray(const RawImage& image) const {
+  return correction_.is_identity() ? gray_of(image) : to_gray(color(image));
 }
-
-GrayImage ImageInput::gray(const RawImage& image) const { return plain_ ? gray_of(image) : to_gray(color(image)); }
 
 void bind_cameras(py::module_& m) {
   m.def("read_camera", &read_camera);

@@ -7,9 +7,8 @@
 #include <string>
 
 #include "apps/python/arrays.hpp"
-#include "odosplat/camera/undistort.hpp"
 #include "odosplat/io/camera/camera_entries.hpp"
-#include "odosplat/io/camera/photometric.hpp"
+#include "odosplat/io/camera/image_correction.hpp"
 
 namespace odosplat::python {
 
@@ -31,14 +30,12 @@ class ImageInput {
   }
   ColorImage color(const RawImage& image) const;
   GrayImage gray(const RawImage& image) const;
-  DepthImage depth(const DepthImage& depth) const { return undistorter_.depth(depth); }
+  DepthImage depth(const DepthImage& depth) const { return correction_.depth(depth); }
 
  private:
   Camera camera_;
   ColorOrder order_;
-  Undistorter undistorter_;
-  PhotometricCorrection photometric_;
-  bool plain_;  // nothing is to be corrected
+  ImageCorrection correction_;
 };
 
 }  // namespace odosplat::python

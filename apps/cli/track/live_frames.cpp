@@ -2,6 +2,7 @@
 // Copyright 2026 The odosplat authors
 #include "apps/cli/track/live_frames.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include "apps/command/interrupt.hpp"
@@ -21,6 +22,19 @@ LiveOptions options_of(const TrackJob& job, const CameraFile& camera) {
   options.reconnect = job.live.reconnect.value_or(options.reconnect);
   options.open_timeout = job.live.open_timeout.value_or(options.open_timeout);
   return options;
+}
+
+/// The camera of the job, before anything of its size is allocated.
+CameraFile camera_of(const TrackJob& job) {
+  constexpr int smallest_side = 2;  // [px] interpolation and gradients need a neighbour
+  const std::string& file = job.sequence.options.camera_file;
+  CameraFile camera = read_camera_file(file);
+  const cv::Size size(camera.camera.width, camera.camera.height);
+  ImageLimit{job.sequence.options.max_image_pixels, {}}.check(file, size);
+  if (std::min(size.width, size.height) < smallest_side) {
+    throw InputError(file, "images of " + size_text(size) + " are too small");
+  }
+  return camera;
 }
 
 /// Whether the camera file is of the stream's images.
@@ -49,8 +63,9 @@ void require_size(const LiveSource& source, const CameraFile& camera, const std:
 }  // namespace
 
 LiveFrames::LiveFrames(const TrackJob& job)
-    : camera_(read_camera_file(job.sequence.options.camera_file)),
-      correction_(camera_, job.sequence.options.camera_file, job.sequence.options.max_image_pixels),
+    : camera_(camera_of(job)),
+      correction_(camera_,
+                  vignette_of(camera_, job.sequence.options.camera_file, job.sequence.options.max_image_pixels)),
       source_(job.sequence.path, options_of(job, camera_), [] { return interrupted(); }) {
   require_size(source_, camera_, job.sequence.options.camera_file);
 }
@@ -69,7 +84,9 @@ std::optional<InputFrame> LiveFrames::next(const std::function<bool()>& stopped)
   frame.stamp = StampedPose{taken->time, {}, ""}.stamp();
   frame.dropped = taken->dropped;
   frame.arrival = taken->arrival;
-  frame.image = correction_.gray(source_.name(), taken->rgb);
+  ColorImage image;
+  taken->rgb.convertTo(image, CV_32F, 1.0 / 255.0);
+  frame.image = to_gray(correction_.color(image));
   return frame;
 }
 

@@ -2,8 +2,6 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
-#include <cstdint>
-#include <opencv2/core.hpp>
 #include <string>
 
 #include "odosplat/camera/undistort.hpp"
@@ -13,23 +11,34 @@
 
 namespace odosplat {
 
-/// What Sequence does to the images of a camera as it reads them, for images that come from elsewhere: vignette and gamma
-/// of the camera file are corrected, and then the lens distortion. Const calls are thread safe.
+/// What the images of a camera go through before they are used, wherever they come from: vignette and gamma of the camera
+/// file are corrected, and then the lens distortion. Images must have the camera's size. Const calls are thread safe.
 class ImageCorrection {
  public:
-  /// camera: as read from `file`, whose folder a relative path of the vignette belongs to. Throws InputError naming the
-  /// file: an implausible camera (check_camera), images of more than max_pixels or less than 2x2 pixels, or a vignette
-  /// that is missing, damaged or of another size.
-  ImageCorrection(const CameraFile& camera, const std::string& file, std::int64_t max_pixels);
+  /// The identity.
+  ImageCorrection() = default;
+  /// camera: plausible (check_camera). vignette: of its size (vignette_of); empty: none.
+  ImageCorrection(const CameraFile& camera, const cv::Mat1f& vignette);
 
-  /// rgb: of the camera's size, else InputError naming `name`, both sizes and the camera file.
-  GrayImage gray(const std::string& name, const cv::Mat3b& rgb) const;
+  /// Color images of exposure 1 and depth images are returned as they are.
+  bool is_identity() const { return undistorter_.is_identity() && !with_vignette_; }
+  /// exposure: as that of PhotometricCorrection.
+  ColorImage color(const ColorImage& taken, double exposure = 1.0) const;
+  DepthImage depth(const DepthImage& taken) const { return undistorter_.depth(taken); }
+  /// As Undistorter: for depth that is registered to the corrected images already.
+  void mask_unseen(DepthImage& depth) const { undistorter_.mask_unseen(depth); }
 
  private:
-  std::string file_;
-  cv::Size size_;
-  PhotometricCorrection photometric_;
   Undistorter undistorter_;
+  PhotometricCorrection photometric_;
+  bool with_vignette_ = false;
 };
+
+/// Path of a camera's vignette, which is relative to the folder of its file; empty if it has none.
+std::string vignette_path(const CameraFile& camera, const std::string& file);
+
+/// The vignette of a camera; empty if it has none. file: that of the camera, for the path and for errors. InputError for
+/// one that is missing, damaged, or not of the camera's size.
+cv::Mat1f vignette_of(const CameraFile& camera, const std::string& file, std::int64_t max_pixels);
 
 }  // namespace odosplat

@@ -124,7 +124,7 @@ CameraFile Sequence::camera_file() const {
   CameraFile file = data_->index.camera;
   file.fy_sign = 1;
   file.fps = data_->fps;
-  file.vignette = vignette_file(data_->index);
+  file.vignette = vignette_path(data_->index.camera, data_->index.camera_source);
   return file;
 }
 

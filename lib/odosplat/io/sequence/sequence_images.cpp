@@ -44,18 +44,13 @@ void require_files(const std::string& name, SequenceIndex& index) {
   }
 }
 
-std::string vignette_file(const SequenceIndex& index) {
-  if (index.camera.vignette.empty()) return {};
-  return listed_file(std::filesystem::path(index.camera_source).parent_path().string(), index.camera.vignette);
-}
-
 SequenceImages::SequenceImages(const std::string& path, const std::string& layout, const SequenceIndex& index,
                                std::int64_t max_image_pixels)
     : layout_(layout), index_(index), max_image_pixels_(max_image_pixels) {
   require_sizes(path);
   // Last, because only here has the size in the camera file been verified.
-  undistorter_ = Undistorter(index.camera.camera, index.camera.distortion);
-  read_photometric_calibration(path);
+  read_exposures_of(path);
+  correction_ = ImageCorrection(index.camera, vignette_of(index.camera, index.camera_source, max_image_pixels));
 }
 
 void SequenceImages::require_sizes(const std::string& path) const {
@@ -127,19 +122,12 @@ void SequenceImages::require_size_of_images() const {
   if (first_fault) throw *first_fault;
 }
 
-void SequenceImages::read_photometric_calibration(const std::string& path) {
+void SequenceImages::read_exposures_of(const std::string& path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    std::vector<double> times;
-    for (const FrameFiles& f : index_.frames) times.push_back(f.time);
-    exposures_ = read_exposures(path, times);
-  }
-  cv::Mat1f vignette;
-  if (const std::string file = vignette_file(index_); !file.empty()) {
-    vignette = read_vignette(file, camera_size_only(file));
-  }
-  const double gamma = index_.camera.gamma > 0.0 ? index_.camera.gamma : 1.0;
-  photometric_ = PhotometricCorrection(gamma, vignette);
+  if (!std::filesystem::is_directory(path, error)) return;
+  std::vector<double> times;
+  for (const FrameFiles& f : index_.frames) times.push_back(f.time);
+  exposures_ = read_exposures(path, times);
 }
 
 ColorImage SequenceImages::color(std::size_t i) const {
@@ -150,7 +138,7 @@ ColorImage SequenceImages::color(std::size_t i) const {
   } else {
     image = read_color(files.color, camera_size_only(files.color));
   }
-  return undistorter_.color(photometric_.apply(image, exposure(i)));
+  return correction_.color(image, exposure(i));
 }
 
 DepthImage SequenceImages::depth(std::size_t i) const {
@@ -167,10 +155,10 @@ DepthImage SequenceImages::depth(std::size_t i) const {
   }
   if (const std::optional<DepthCamera>& other = index_.camera.depth_camera; other) {
     DepthImage registered = registered_depth(depth, other->camera, other->T_color_depth, index_.camera.camera);
-    undistorter_.mask_unseen(registered);
+    correction_.mask_unseen(registered);
     return registered;
   }
-  return undistorter_.depth(depth);
+  return correction_.depth(depth);
 }
 
 }  // namespace odosplat

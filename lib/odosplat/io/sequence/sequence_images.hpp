@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "odosplat/camera/undistort.hpp"
 #include "odosplat/core/image.hpp"
-#include "odosplat/io/camera/photometric.hpp"
+#include "odosplat/io/camera/image_correction.hpp"
 #include "odosplat/io/image/image_file.hpp"
 #include "odosplat/io/sequence/sequence_index.hpp"
 
@@ -45,18 +44,14 @@ class SequenceImages {
   void require_depth_size(const FrameFiles& files, const cv::Size& size) const;
   void require_size_of_images() const;
   void require_sizes(const std::string& path) const;
-  void read_photometric_calibration(const std::string& path);
+  void read_exposures_of(const std::string& path);
 
   std::string layout_;
   const SequenceIndex& index_;
   std::int64_t max_image_pixels_;
-  Undistorter undistorter_;
-  PhotometricCorrection photometric_;
+  ImageCorrection correction_;
   std::vector<double> exposures_;  // per frame, median 1; empty: not known
   mutable std::once_flag depth_scale_said_;
 };
-
-/// Path of the camera's vignette; empty if there is none.
-std::string vignette_file(const SequenceIndex& index);
 
 }  // namespace odosplat
