@@ -48,4 +48,15 @@ OdometryOptions odometry_options(const MethodPreset& preset, std::optional<bool>
   return options;
 }
 
+std::unique_ptr<Odometry> start_odometry(const Camera& camera, MapView& map, const OdometryOptions& options,
+                                         Relocalizer* relocalizer, const std::optional<SE3>& T_world_camera_start,
+                                         bool prepare) {
+  if (prepare && T_world_camera_start) map.render(camera, *T_world_camera_start, {true, true});
+  if (prepare && relocalizer != nullptr) relocalizer->prepare();
+  if (!T_world_camera_start) return std::make_unique<Odometry>(camera, map, options, *relocalizer);
+  auto odometry = std::make_unique<Odometry>(camera, map, options, *T_world_camera_start);
+  odometry->set_relocalizer(relocalizer);
+  return odometry;
+}
+
 }  // namespace odosplat::apps

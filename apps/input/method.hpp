@@ -2,11 +2,13 @@
 // Copyright 2026 The odosplat authors
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "odosplat/odometry/odometry.hpp"
+#include "odosplat/odometry/relocalise/relocalizer.hpp"
 #include "odosplat/splat/raster/rasterizer.hpp"
 
 namespace odosplat::apps {
@@ -39,5 +41,12 @@ std::string method_names();
 
 /// Options of the preset, with the anchor switched on or off if `anchor` has a value.
 OdometryOptions odometry_options(const MethodPreset& preset, std::optional<bool> anchor);
+
+/// The odometry from a start pose, or, without one, from where the relocaliser finds the first images; then it must not
+/// be null. prepare: what the first image would wait for (the device's programs, the rendering of all places) is done
+/// here, because in real time images would be dropped meanwhile. All but the options must outlive the result.
+std::unique_ptr<Odometry> start_odometry(const Camera& camera, MapView& map, const OdometryOptions& options,
+                                         Relocalizer* relocalizer, const std::optional<SE3>& T_world_camera_start,
+                                         bool prepare);
 
 }  // namespace odosplat::apps

@@ -46,17 +46,8 @@ class HeldTracker {
       settings.options.apply(look_up);
       relocalizer_.emplace(input_.camera(), view_, settings.places.empty() ? map_->places() : settings.places, look_up);
     }
-    if (settings.background) {
-      // What the first image would wait for.
-      if (start) view_.render(input_.camera(), *start, {true, true});
-      if (relocalizer_) relocalizer_->prepare();
-    }
-    if (start) {
-      odometry_.emplace(input_.camera(), view_, options, *start);
-      odometry_->set_relocalizer(relocalizer_ ? &*relocalizer_ : nullptr);
-    } else {
-      odometry_.emplace(input_.camera(), view_, options, *relocalizer_);
-    }
+    odometry_ = apps::start_odometry(input_.camera(), view_, options, relocalizer_ ? &*relocalizer_ : nullptr, start,
+                                     settings.background);
   }
 
   const ImageInput& input() const { return input_; }
@@ -91,7 +82,7 @@ class HeldTracker {
   ImageInput input_;
   GaussianView view_;
   std::optional<Relocalizer> relocalizer_;
-  std::optional<Odometry> odometry_;  // after what it refers to
+  std::unique_ptr<Odometry> odometry_;  // after what it refers to
   std::optional<double> last_time_;
   std::mutex mutex_;
 };

@@ -19,6 +19,7 @@
 #include "apps/command/no_result.hpp"
 #include "apps/command/number_flags.hpp"
 #include "apps/command/output.hpp"
+#include "apps/input/method.hpp"
 #include "apps/input/places.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/formatted.hpp"
@@ -106,25 +107,6 @@ std::unique_ptr<Relocalizer> make_relocalizer(const TrackJob& job, const Camera&
 
 namespace {
 
-/// T_world_camera_start: none if it is to be found.
-std::unique_ptr<Odometry> start_odometry(const TrackJob& job, const Camera& camera, const OpenedView& opened,
-                                         Relocalizer* relocalizer, const std::optional<SE3>& T_world_camera_start) {
-  const OdometryOptions options = odometry_options(job);
-  // The first rendering loads the device's programs and the first look-up renders all places. In real time this is done
-  // in advance, because frames would be dropped meanwhile.
-  if (!T_world_camera_start) {
-    if (job.in_real_time()) relocalizer->prepare();
-    return std::make_unique<Odometry>(camera, *opened.view, options, *relocalizer);
-  }
-  if (job.in_real_time() && opened.sensor == nullptr) {
-    opened.view->render(camera, *T_world_camera_start, {true, true});
-    if (relocalizer != nullptr) relocalizer->prepare();
-  }
-  auto odometry = std::make_unique<Odometry>(camera, *opened.view, options, *T_world_camera_start);
-  odometry->set_relocalizer(relocalizer);
-  return odometry;
-}
-
 /// Writes the results so far while an error is being passed on. A failure here is only logged, so that the first error
 /// is the one reported.
 void write_what_there_is(TrackRun& run, const TrackRecord& record) {
@@ -140,7 +122,8 @@ void write_what_there_is(TrackRun& run, const TrackRecord& record) {
 TrackOutcome track_frames(const Common& common, const TrackJob& job, FrameSource& source, OpenedView& opened,
                           Relocalizer* relocalizer, const std::optional<SE3>& T_world_camera_start, TrackRecord& record,
                           PoseStream* stream) {
-  const auto started = start_odometry(job, source.camera(), opened, relocalizer, T_world_camera_start);
+  const auto started = start_odometry(source.camera(), *opened.view, odometry_options(job), relocalizer,
+                                      T_world_camera_start, job.in_real_time() && opened.sensor == nullptr);
   const SavesWhenInterrupted saves;
   TrackRun run(job, source, *started, record, opened.device ? opened.device->device().name : "none", stream);
   bool played = false;
