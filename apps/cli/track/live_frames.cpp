@@ -8,6 +8,7 @@
 #include "apps/command/interrupt.hpp"
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/io/camera/camera_check.hpp"
 #include "odosplat/io/camera/camera_file.hpp"
 #include "odosplat/io/image/size_text.hpp"
 #include "odosplat/io/video/live_address.hpp"
@@ -48,12 +49,7 @@ void require_size(const LiveSource& source, const CameraFile& camera, const std:
                          file + " is for " + size_text(stated) +
                          ": calibrate at the size of the stream, or set the camera to that of the calibration");
   }
-  if (source.quarters() % 2 != 0 && camera.camera.readout != 0.0) {
-    throw InputError(source.name(), "its images are turned by " + degrees +
-                                        ", so that what was taken one row after the "
-                                        "other are their columns: line_time of " +
-                                        file + " cannot be used");
-  }
+  check_turned_rows(source.name(), source.quarters(), camera.camera, file);
   if (source.quarters() != 0) {
     log_warning(source.name() + ": its images are turned by " + degrees + ", as the stream says; " + file +
                 " must be of the turned images");

@@ -133,4 +133,12 @@ void check_camera(const std::string& name, const CameraFile& file) {
   }
 }
 
+void check_turned_rows(const std::string& name, int quarters, const Camera& camera, const std::string& file) {
+  if (quarters % 2 == 0 || camera.readout == 0.0) return;
+  throw InputError(name, "is shown turned by " + std::to_string(90 * quarters) +
+                             " degrees clockwise, so that what was taken one row after the other are its columns: "
+                             "line_time of " +
+                             file + " cannot be used");
+}
+
 }  // namespace odosplat

@@ -34,4 +34,8 @@ void check_camera(const std::string& name, const CameraFile& file);
 /// each pixel shows one ray. Where the model folds, pixels beyond the fold show no ray and those just inside show two.
 double fold_radius(const Camera& camera, const std::vector<double>& distortion);
 
+/// InputError(name, fault) if images of a rolling shutter are shown turned by one or three quarters: what was taken row
+/// after row are then their columns. file: the camera's.
+void check_turned_rows(const std::string& name, int quarters, const Camera& camera, const std::string& file);
+
 }  // namespace odosplat

@@ -9,6 +9,7 @@
 #include "odosplat/core/error.hpp"
 #include "odosplat/core/formatted.hpp"
 #include "odosplat/core/log.hpp"
+#include "odosplat/io/camera/camera_check.hpp"
 #include "odosplat/io/image/size_text.hpp"
 #include "odosplat/io/sequence/layout_parts.hpp"
 #include "odosplat/io/sequence/layouts.hpp"
@@ -40,12 +41,7 @@ void check_turned(const std::string& path, const VideoReader& video, const Seque
                                " is for " + size_text({camera.width, camera.height}) +
                                ": calibrate with the images as they are shown");
   }
-  if (video.quarters() != 2 && camera.readout != 0.0) {
-    throw InputError(path, "is shown turned by " + degrees +
-                               ", so that what was taken one row after the other are its "
-                               "columns: line_time of " +
-                               index.camera_source + " cannot be used");
-  }
+  check_turned_rows(path, video.quarters(), camera, index.camera_source);
   // In these cases the image size does not show whether the camera file is for rotated images.
   if (video.quarters() == 2 || camera.width == camera.height) {
     log_warning(path + ": its images are turned by " + degrees + ", as they are to be shown; " + index.camera_source +
