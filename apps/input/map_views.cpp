@@ -17,8 +17,8 @@
 #include "odosplat/io/cloud/cloud_file.hpp"
 #include "odosplat/map/interpolation_view.hpp"
 #include "odosplat/map/surfel_view.hpp"
-#include "odosplat/splat/edit/kept_gaussians.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
+#include "odosplat/splat/kept_gaussians.hpp"
 #include "odosplat/splat/map_file.hpp"
 
 namespace odosplat::apps {

@@ -20,7 +20,7 @@
 #include "odosplat/core/terminal_text.hpp"
 #include "odosplat/splat/edit/crop.hpp"
 #include "odosplat/splat/edit/edited_header.hpp"
-#include "odosplat/splat/edit/kept_gaussians.hpp"
+#include "odosplat/splat/kept_gaussians.hpp"
 #include "odosplat/splat/map_file.hpp"
 
 namespace odosplat::apps {

@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "odosplat/core/error.hpp"
-#include "odosplat/splat/edit/kept_gaussians.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
+#include "odosplat/splat/kept_gaussians.hpp"
 #include "tests/splat/corner_scene.hpp"
 #include "tests/splat/edit/room_map.hpp"
 

@@ -13,8 +13,8 @@
 #include "odosplat/splat/blend_order.hpp"
 #include "odosplat/splat/edit/crop.hpp"
 #include "odosplat/splat/edit/edited_header.hpp"
-#include "odosplat/splat/edit/kept_gaussians.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
+#include "odosplat/splat/kept_gaussians.hpp"
 #include "tests/splat/corner_scene.hpp"
 #include "tests/splat/edit/room_map.hpp"
 

@@ -63,12 +63,8 @@ std::string words_on(const HeaderSource& source) {
 }  // namespace
 
 MapHeader with_edit(const MapHeader& header, const std::string& what) {
-  std::vector<std::string> notes = header.notes;
-  notes.push_back(edit_word + what);
-  MapHeader edited = MapHeader::from_notes(std::move(notes));
-  edited.rasterizer = header.rasterizer;
-  edited.sigma = header.sigma;
-  edited.quality = header.quality;
+  MapHeader edited = header;
+  edited.notes.push_back(edit_word + what);
   return edited;
 }
 

@@ -13,7 +13,7 @@
 #include "odosplat/core/upper_median.hpp"
 #include "odosplat/splat/edit/edited_header.hpp"
 #include "odosplat/splat/edit/gaussian_shapes.hpp"
-#include "odosplat/splat/edit/kept_gaussians.hpp"
+#include "odosplat/splat/kept_gaussians.hpp"
 
 namespace odosplat {
 namespace {

@@ -13,7 +13,6 @@ namespace odosplat {
 namespace {
 
 constexpr int shape_spacing_neighbors = 6;
-constexpr int shape_normal_neighbors = 12;
 constexpr float most_flat_ratio = 0.5F;  // shortest over middle axis
 
 Eigen::Vector3f axis_of(const Gaussians& gaussians, std::size_t i, int axis) {
@@ -35,7 +34,6 @@ GaussianShapes gaussian_shapes(const Gaussians& gaussians) {
   GaussianShapes shapes;
   const std::size_t n = gaussians.size();
   const auto stride = 3 * static_cast<std::size_t>(gaussians.coefficients());
-  bool all_flat = true;
   for (std::size_t i = 0; i < n; ++i) {
     std::array<float, 3> scale{};
     for (std::size_t a = 0; a < 3; ++a) scale[a] = std::exp(gaussians.log_scales[3 * i + a]);
@@ -46,19 +44,11 @@ GaussianShapes gaussian_shapes(const Gaussians& gaussians) {
                                      Eigen::Vector3f::Constant(0.5F));
     std::sort(scale.begin(), scale.end());
     shapes.flat.push_back(scale[0] <= most_flat_ratio * scale[1] ? 1 : 0);
-    all_flat = all_flat && shapes.flat.back() != 0;
     shapes.thickness.push_back(scale[0]);
     shapes.length.push_back(scale[2]);
     shapes.opacities.push_back(1.0F / (1.0F + std::exp(-gaussians.opacity_logits[i])));
   }
   shapes.spacings = mean_neighbor_distances(shapes.cloud, shape_spacing_neighbors);
-  if (all_flat) return shapes;
-  PointCloud fitted;
-  fitted.points = shapes.cloud.points;
-  estimate_normals(fitted, shape_normal_neighbors);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (shapes.flat[i] == 0) shapes.cloud.normals[i] = fitted.normals[i];
-  }
   return shapes;
 }
 

@@ -12,8 +12,8 @@ namespace odosplat {
 
 /// What the tools that edit maps look at, one value per Gaussian.
 struct GaussianShapes {
-  /// Centres [m, world], normals (unit length, either sign) and colours of degree 0 (not clamped). The normal is the
-  /// direction of a flat Gaussian's shortest axis; otherwise that of the plane through the 12 nearest centres.
+  /// Centres [m, world], normals (the shortest axis, unit length, either sign: of a flat Gaussian that of its surface) and
+  /// colours of degree 0 (not clamped).
   PointCloud cloud;
   std::vector<char> flat;        // 1: the shortest axis is at most half of the middle one
   std::vector<float> thickness;  // [m] standard deviation along the shortest axis

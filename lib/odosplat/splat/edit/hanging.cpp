@@ -3,13 +3,14 @@
 // Gaussians that hang in free space: before the surface that views show.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/core/upper_median.hpp"
 #include "odosplat/splat/edit/floaters.hpp"
 #include "odosplat/splat/edit/gaussian_shapes.hpp"
-#include "odosplat/splat/edit/kept_gaussians.hpp"
 #include "odosplat/splat/gaussian_view.hpp"
+#include "odosplat/splat/kept_gaussians.hpp"
 
 namespace odosplat {
 namespace {

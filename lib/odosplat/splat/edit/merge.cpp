@@ -10,8 +10,8 @@
 #include "odosplat/core/formatted.hpp"
 #include "odosplat/core/upper_median.hpp"
 #include "odosplat/splat/edit/edited_header.hpp"
-#include "odosplat/splat/edit/kept_gaussians.hpp"
 #include "odosplat/splat/edit/merge_layer.hpp"
+#include "odosplat/splat/kept_gaussians.hpp"
 
 namespace odosplat {
 namespace {

@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 
+#include "odosplat/cloud/cloud_filters.hpp"
 #include "odosplat/cloud/neighbor_search.hpp"
 #include "odosplat/core/parallel.hpp"
 #include "odosplat/core/upper_median.hpp"
@@ -139,11 +141,29 @@ void MergeLayer::append(const MergeLayer& other, const std::vector<bool>& keep) 
   }
 }
 
+namespace {
+
+/// Normals of all: those of flat Gaussians are their own, of the others that of the plane through the nearest centres.
+std::vector<Eigen::Vector3f> surface_normals(const GaussianShapes& shapes) {
+  constexpr int neighbors = 12;
+  std::vector<Eigen::Vector3f> normals = shapes.cloud.normals;
+  if (std::all_of(shapes.flat.begin(), shapes.flat.end(), [](char flat) { return flat != 0; })) return normals;
+  PointCloud fitted;
+  fitted.points = shapes.cloud.points;
+  estimate_normals(fitted, neighbors);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (shapes.flat[i] == 0) normals[i] = fitted.normals[i];
+  }
+  return normals;
+}
+
+}  // namespace
+
 MergeLayer merge_layer(const Map& map) {
   const GaussianShapes shapes = gaussian_shapes(map.gaussians);
   MergeLayer layer;
   layer.points = shapes.cloud.points;
-  layer.normals = shapes.cloud.normals;
+  layer.normals = surface_normals(shapes);
   layer.spacings = shapes.spacings;
   layer.flat = shapes.flat;
   std::vector<Eigen::Vector3f> cameras;

@@ -19,6 +19,7 @@
 #include "odosplat/splat/format/quantized.hpp"
 #include "odosplat/splat/format/spz.hpp"
 #include "odosplat/splat/format/turned.hpp"
+#include "odosplat/splat/kept_gaussians.hpp"
 
 namespace odosplat {
 namespace {
@@ -175,19 +176,6 @@ Gaussians gaussians_of_primitive(Document& document, const Json& primitive, cons
   return gaussians_of_accessors(document, primitive, place);
 }
 
-void append(std::vector<float>& to, const std::vector<float>& more) { to.insert(to.end(), more.begin(), more.end()); }
-
-/// Harmonics of a higher degree; the new coefficients are 0.
-void raise_degree(Gaussians& g, int degree) {
-  if (g.sh_degree >= degree) return;
-  const auto from = 3 * static_cast<std::size_t>(g.coefficients());
-  g.sh_degree = degree;
-  const auto to = 3 * static_cast<std::size_t>(g.coefficients());
-  std::vector<float> sh(to * g.size());
-  for (std::size_t i = 0; i < g.size(); ++i) std::copy_n(&g.sh[from * i], from, &sh[to * i]);
-  g.sh = std::move(sh);
-}
-
 /// Gathers the Gaussians of a scene.
 class SceneReader {
  public:
@@ -243,24 +231,18 @@ class SceneReader {
       Gaussians part =
           gaussians_of_primitive(document_, (*primitives)[p], here + ".primitives[" + std::to_string(p) + "]");
       if (!T.isIdentity(0.0)) move_gaussians(part, similarity_of(document_, T, from));
-      add(std::move(part), here);
+      add(part, here);
     }
     if (has_gaussians) take_lines(mesh, here);
   }
 
-  void add(Gaussians part, const std::string& place) {
+  void add(const Gaussians& part, const std::string& place) {
     const int degree = std::max(part.sh_degree, gaussians.sh_degree);
-    raise_degree(part, degree);
-    raise_degree(gaussians, degree);
     const std::size_t width = sizeof(float) * (11 + 3 * static_cast<std::size_t>(sh_coefficients(degree)));
     if ((gaussians.size() + part.size()) * width / most_repeats > document_.stored()) {
       document_.fail(place, "the scene repeats its Gaussians too often");
     }
-    append(gaussians.positions, part.positions);
-    append(gaussians.log_scales, part.log_scales);
-    append(gaussians.rotations, part.rotations);
-    append(gaussians.opacity_logits, part.opacity_logits);
-    append(gaussians.sh, part.sh);
+    append_gaussians(gaussians, part);
   }
 
   void take_lines(const Json& mesh, const std::string& place) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The odosplat authors
-#include "odosplat/splat/edit/kept_gaussians.hpp"
+#include "odosplat/splat/kept_gaussians.hpp"
 
 #include <algorithm>
 
